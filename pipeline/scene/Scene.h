@@ -1,0 +1,145 @@
+// A scene as plain structs: meshes, materials, textures, instances, lights, cameras. Owns no GPU object.
+// World space: right-handed, y up, units are the scene's (glTF: metres). Colours are linear unless said otherwise.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <glm/glm.hpp>
+
+#include "core/Image.h"
+#include "scene/Camera.h"
+
+namespace crevice {
+
+struct Aabb {
+    glm::vec3 min{0}, max{0};
+    bool empty = true;
+    void add(const glm::vec3& point);
+    void add(const Aabb& box);
+    Aabb transformed(const glm::mat4& matrix) const;
+    glm::vec3 centre() const { return 0.5f * (min + max); }
+    float diagonal() const;
+};
+
+/// One vertex as it is uploaded: 64 bytes, interleaved.
+struct Vertex {
+    glm::vec3 position{0};
+    glm::vec3 normal{0, 0, 1};
+    glm::vec4 tangent{1, 0, 0, 1};  ///< w = handedness of the bitangent
+    glm::vec2 uv0{0};
+    glm::vec2 uv1{0};
+    glm::vec4 color{1};
+};
+static_assert(sizeof(Vertex) == 18 * sizeof(float));
+
+/// An indexed triangle list.
+struct Mesh {
+    std::string name;
+    std::vector<Vertex> vertices;
+    std::vector<std::uint32_t> indices;
+    bool hasTangents = false;  ///< False: shaders derive the tangent frame from derivatives.
+    Aabb bounds;               ///< Object space.
+};
+
+enum class Wrap : std::uint8_t { Repeat, Mirror, Clamp };
+struct SamplerDesc {
+    Wrap wrapU = Wrap::Repeat, wrapV = Wrap::Repeat;
+    bool linearMag = true, linearMin = true;
+    bool mipmaps = true, linearMip = true;
+    bool operator==(const SamplerDesc&) const = default;
+};
+
+/// A decoded picture. RGBA8; `srgb` when colours (base colour, emissive) are stored in it.
+struct Texture {
+    std::string name;
+    Image image;
+    bool srgb = false;
+    SamplerDesc sampler;
+};
+
+struct TextureRef {
+    int texture = -1;   ///< Index into Scene::textures, -1 = none.
+    int texcoord = 0;   ///< 0 or 1
+    explicit operator bool() const { return texture >= 0; }
+};
+
+enum class AlphaMode : std::uint8_t { Opaque, Mask, Blend };
+
+/// Metallic-roughness material of glTF 2.0.
+struct SceneMaterial {
+    std::string name;
+    glm::vec4 baseColor{1};
+    float metallic = 1, roughness = 1;
+    glm::vec3 emissive{0};           ///< Includes emissive strength.
+    float normalScale = 1, occlusionStrength = 1;
+    TextureRef baseColorMap, metallicRoughnessMap, normalMap, occlusionMap, emissiveMap;
+    AlphaMode alphaMode = AlphaMode::Opaque;
+    float alphaCutoff = 0.5f;
+    bool doubleSided = false;
+};
+
+struct Instance {
+    int mesh = 0;
+    int material = 0;   ///< Always valid: a default material is added for primitives without one.
+    glm::mat4 world{1};
+    std::string name;
+};
+
+enum class LightType : std::uint8_t { Directional, Point, Spot };
+
+/// KHR_lights_punctual: intensity in lux (directional) or candela; range 0 = unlimited; angles in radians.
+struct Light {
+    LightType type = LightType::Directional;
+    glm::vec3 color{1};
+    float intensity = 1;
+    float range = 0;
+    float innerAngle = 0, outerAngle = 0.785398f;
+    glm::vec3 position{0};
+    glm::vec3 direction{0, 0, -1};   ///< The way the light travels, unit length.
+    bool castsShadow = true;
+    std::string name;
+};
+
+/// Hemispheric ambient light: irradiance / pi from above and below, linear.
+struct Ambient {
+    glm::vec3 sky{0};
+    glm::vec3 ground{0};
+};
+
+enum class FogType : std::uint8_t { None, Linear, Exp, Exp2 };
+struct Fog {
+    FogType type = FogType::None;
+    glm::vec3 color{0.5f};
+    float start = 0, end = 100;      ///< Linear: world units along the view ray.
+    float density = 0.01f;           ///< Exp and exp²: per world unit.
+};
+
+/// What SkyboxStage shows behind everything: a vertical gradient, or nothing (the background colour).
+struct Sky {
+    bool enabled = false;
+    glm::vec3 zenith{0.2f, 0.4f, 0.8f}, horizon{0.8f, 0.85f, 0.9f}, nadir{0.3f, 0.28f, 0.25f};
+};
+
+struct Scene {
+    std::string name;
+    std::vector<Mesh> meshes;
+    std::vector<Texture> textures;
+    std::vector<SceneMaterial> materials;
+    std::vector<Instance> instances;
+    std::vector<Light> lights;
+    std::vector<Camera> cameras;
+    std::optional<Ambient> ambient;  ///< Nothing: addDefaultLight() decides.
+    Fog fog;
+    Sky sky;
+    std::optional<float> exposureEv; ///< Nothing = automatic.
+
+    Aabb bounds() const;             ///< World space, all instances.
+};
+
+/// A key light and ambient for a scene without any light: documented in docs/scenes.md. Returns true when it added one.
+bool addDefaultLight(Scene& scene);
+
+}  // namespace crevice
