@@ -1,0 +1,25 @@
+// Exposure, tone mapping and sRGB encoding, or another effect over the finished frame, into finalColor.
+#include "flow/RenderStage.h"
+
+namespace crevice {
+namespace {
+
+class PostProcessStage final : public RenderStage {
+public:
+    void declare(StageIo& io) override {
+        io.color("finalColor");
+        draw_ = io.fullscreen("post-process");
+    }
+    void render(FrameContext& frame) override { frame.draw(draw_); }
+
+private:
+    DrawId draw_;
+};
+
+}  // namespace
+
+void registerPostProcessStage(StageRegistry& registry) {
+    registry.add<PostProcessStage>("PostProcessStage", {.priority = 19, .help = "Exposure, tone mapping, sRGB; or FXAA."});
+}
+
+}  // namespace crevice

@@ -1,0 +1,62 @@
+// Ambient occlusion from the G-buffer: one full-screen draw into cc_ssaoMap. Which form it has is the effect's business.
+#include "SsaoKernel.h"
+#include "flow/RenderStage.h"
+
+namespace crevice {
+namespace {
+
+struct SsaoBlock {  // Mirrors `CCSsao` in effects/chunks/ssao-constant.chunk.
+    glm::vec4 nearFar{0};  ///< near, far, 1/far, 1/near
+    glm::vec4 samples[kSsaoMaxSamples]{};
+};
+static_assert(sizeof(SsaoBlock) == 1040);
+
+enum Bake { kBakeAuto, kBakeOn, kBakeOff };
+constexpr const char* kBakeNames[] = {"auto", "on", "off"};
+constexpr const char* kKernelNames[] = {"article", "stratified"};
+/// Pixels x samples of a run from which constants in the shader repay the longer compile (about half a frame at 1280x720).
+constexpr std::uint64_t kBakeFrom = 30'000'000;
+
+class SsaoStage final : public RenderStage {
+public:
+    void params(ParamVisitor& v) override {
+        v.field("seed", seed_, {.help = "Kernel seed. The same seed renders the same picture."});
+        v.field("samples", samples_, {.min = 1, .max = kSsaoMaxSamples, .help = "Kernel size; the radius ladder is made for it."});
+        v.choice("kernel", kernel_, kKernelNames, {.help = "Directions: the article's, or cosine-weighted and stratified."});
+        v.choice("bake", bake_, kBakeNames, {.help = "Kernel as shader constants: the same picture, faster over many pixels."});
+    }
+    void declare(StageIo& io) override {
+        io.color("cc_ssaoMap");
+        block_ = io.block<SsaoBlock>("CCSsao");
+        draw_ = io.fullscreen("ssao");
+        const std::span<glm::vec4> kernel(data_.samples, samples_);
+        makeSsaoKernel(static_cast<SsaoKernelKind>(kernel_), seed_, kernel);
+        const bool baked = bake_ == kBakeOn || (bake_ == kBakeAuto && io.run().pixels() * samples_ >= kBakeFrom);
+        io.define(draw_, "SSAO_SAMPLES", std::to_string(samples_));
+        io.define(draw_, "SSAO_BAKED", baked ? "1" : "0");
+        io.chunk("ssao-kernel", ssaoKernelChunk(kernel));
+    }
+    void render(FrameContext& frame) override {
+        const Camera& camera = frame.camera();
+        data_.nearFar = {camera.near, camera.far, 1.0f / camera.far, 1.0f / camera.near};
+        frame.upload(block_, data_);
+        frame.draw(draw_);
+    }
+
+private:
+    std::uint32_t seed_ = 1;
+    std::uint32_t samples_ = kSsaoMaxSamples;
+    int kernel_ = static_cast<int>(SsaoKernelKind::Stratified);
+    int bake_ = kBakeAuto;
+    SsaoBlock data_;
+    BlockId block_;
+    DrawId draw_;
+};
+
+}  // namespace
+
+void registerSsaoStage(StageRegistry& registry) {
+    registry.add<SsaoStage>("SsaoStage", {.priority = 12, .help = "Screen-space ambient occlusion into cc_ssaoMap."});
+}
+
+}  // namespace crevice
