@@ -19,7 +19,11 @@ public:
 
     Value() = default;
     static Value makeBool(bool value, SourceLoc where = {});
+    /// A whole number of at most 2^53 becomes an integer: makeNumber(3) is what the text `3` reads as.
     static Value makeNumber(double value, SourceLoc where = {});
+    static Value makeInteger(std::int64_t value, SourceLoc where = {});
+    /// A number that was written with fraction or exponent: never an integer.
+    static Value makeReal(double value, SourceLoc where = {});
     static Value makeString(std::string value, SourceLoc where = {});
     static Value makeArray(SourceLoc where = {});
     static Value makeObject(SourceLoc where = {});
@@ -64,12 +68,12 @@ private:
     Type type_ = Type::Null;
     bool bool_ = false;
     bool integer_ = false;
+    std::int64_t integerValue_ = 0;
     double number_ = 0;
     std::string string_;
     std::vector<Value> items_;
     std::vector<Member> members_;
     SourceLoc where_;
-    friend class ValueBuilder;
 };
 
 struct Member {
@@ -82,13 +86,15 @@ struct Member {
 struct DocumentLimits {
     std::size_t maxBytes = 64u << 20;
     int maxDepth = 200;
+    std::size_t maxNodes = 1'000'000;
 };
 
-/// Strict JSON (RFC 8259) plus `//` comments. Duplicate keys, NaN and trailing text are errors. Throws Error with file:line:col.
+/// Strict JSON (RFC 8259) plus comments. Duplicate keys, NaN and trailing text are errors. Throws Error with
+/// file:line:col.
 Value parseJson(std::string_view text, const std::string& file, const DocumentLimits& limits = {});
 
-/// YAML 1.2 scalars (`0x1f` is an int, `yes` a string), quoted scalars are strings, `<<` merges, the last anchor of a name wins.
-/// `firstLine` is the line of the file on which `text` begins. Throws Error.
+/// YAML 1.2 scalars (`0x1f` is an int, `yes` a string), quoted scalars are strings, `<<` merges, the last anchor of a
+/// name wins. `firstLine` is the line of the file on which `text` begins. Throws Error.
 Value parseYaml(std::string_view text, const std::string& file, int firstLine = 1, const DocumentLimits& limits = {});
 
 }  // namespace crevice

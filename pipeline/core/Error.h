@@ -29,13 +29,13 @@ struct Remark {
 struct Problem {
     Severity severity = Severity::Error;
     SourceLoc where;
-    std::string message;            ///< What is wrong, names in single quotes, no final full stop.
-    std::string help;               ///< What to do; empty = nothing better than the message.
+    std::string message;  ///< What is wrong, names in single quotes, no final full stop.
+    std::string help;     ///< What to do; empty = nothing better than the message.
     std::vector<Remark> remarks{};
 };
 
-/// `file:line:col: error: message`, the source line with a caret (re-read from the file where it exists), remarks as `note:`, `help:`.
-/// Ends without a newline.
+/// `file:line:col: error: message`, the source line with a caret (re-read from the file where it exists), remarks as
+/// `note:`, `help:`. Ends without a newline.
 std::string formatProblem(const Problem& problem);
 
 /// Bad input or environment: one or more problems. The program exits with 2.

@@ -13,12 +13,27 @@
 namespace crevice {
 
 enum class Format : std::uint8_t {
-    R8, RG8, RGBA8, RGBA8_SRGB, R16, RG16, RGBA16, R16F, RG16F, RGBA16F, R32F, RG32F, RGBA32F, R32UI, R11G11B10F, D32F
+    R8,
+    RG8,
+    RGBA8,
+    RGBA8_SRGB,
+    R16,
+    RG16,
+    RGBA16,
+    R16F,
+    RG16F,
+    RGBA16F,
+    R32F,
+    RG32F,
+    RGBA32F,
+    R32UI,
+    R11G11B10F,
+    D32F
 };
 
 struct FormatInfo {
     Format format;
-    const char* name;      ///< "R8", as in pipeline documents
+    const char* name;  ///< "R8", as in pipeline documents
     int channels;
     int bytesPerPixel;
     bool isFloat;

@@ -41,6 +41,7 @@ std::vector<std::byte> encodeExr(const Image& image);
 /// Reads PNG (8/16 bit → RGBA8) or EXR (→ RGBA32F) by content. Throws Error.
 Image readImage(const std::filesystem::path& path);
 /// Chooses PNG or EXR by extension and writes aside, then renames. Throws Error for another extension.
-void writeImage(const std::filesystem::path& path, const Image& image, PngMapping mapping = PngMapping::Clamp, float far = 1.0f);
+void writeImage(const std::filesystem::path& path, const Image& image, PngMapping mapping = PngMapping::Clamp,
+                float far = 1.0f);
 
 }  // namespace crevice

@@ -59,8 +59,10 @@ public:
 
 private:
     const Value* lookUp(const char* key);
-    template <class Number> void readNumber(const char* key, Number& value, const FieldInfo& info);
-    template <int N, class Vec> void readVector(const char* key, Vec& value, const FieldInfo& info);
+    template <class Number>
+    void readNumber(const char* key, Number& value, const FieldInfo& info);
+    template <int N, class Vec>
+    void readVector(const char* key, Vec& value, const FieldInfo& info);
 
     const Value& object_;
     std::string what_;
@@ -76,7 +78,7 @@ struct ParamRow {
     std::string range;         ///< "0 … 1", "≥ 0", "" when unlimited
     std::string unit;
     std::string help;
-    Value schema;              ///< JSON Schema of the field
+    Value schema;  ///< JSON Schema of the field
 };
 
 /// Collects the fields of a set with their present values as defaults: for `crevice stages`, docs and the schema.

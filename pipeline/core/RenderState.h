@@ -10,8 +10,21 @@ enum class CompareOp : std::uint8_t { Never, Less, Equal, LessEqual, Greater, No
 enum class CullMode : std::uint8_t { None, Front, Back };
 enum class PolygonMode : std::uint8_t { Fill, Line, Point };
 enum class BlendFactor : std::uint8_t {
-    Zero, One, SrcAlpha, DstAlpha, OneMinusSrcAlpha, OneMinusDstAlpha, SrcColor, DstColor, OneMinusSrcColor, OneMinusDstColor,
-    SrcAlphaSaturate, ConstantColor, OneMinusConstantColor, ConstantAlpha, OneMinusConstantAlpha
+    Zero,
+    One,
+    SrcAlpha,
+    DstAlpha,
+    OneMinusSrcAlpha,
+    OneMinusDstAlpha,
+    SrcColor,
+    DstColor,
+    OneMinusSrcColor,
+    OneMinusDstColor,
+    SrcAlphaSaturate,
+    ConstantColor,
+    OneMinusConstantColor,
+    ConstantAlpha,
+    OneMinusConstantAlpha
 };
 enum class BlendOp : std::uint8_t { Add, Sub, RevSub, Min, Max };
 enum class Topology : std::uint8_t { PointList, LineList, LineStrip, TriangleList, TriangleStrip, TriangleFan };

@@ -7,10 +7,13 @@
 
 namespace crevice {
 
-/// Candidates whose edit distance to `name` is at most a third of its length (at least 2), nearest first, at most `limit`.
-std::vector<std::string> nearestNames(std::string_view name, const std::vector<std::string>& candidates, std::size_t limit = 3);
+/// Candidates whose edit distance to `name` is at most a third of its length (at least 2), nearest first, at most
+/// `limit`.
+std::vector<std::string> nearestNames(std::string_view name, const std::vector<std::string>& candidates,
+                                      std::size_t limit = 3);
 
-/// "did you mean 'format'? keys: a, b, c", or "keys: a, b, c" when nothing is near. `what` is the plural of the things listed.
+/// "did you mean 'format'? keys: a, b, c", or "keys: a, b, c" when nothing is near. `what` is the plural of the things
+/// listed.
 std::string didYouMean(std::string_view name, const std::vector<std::string>& candidates, std::string_view what);
 
 /// "a, b, c".
