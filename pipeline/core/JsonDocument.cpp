@@ -90,6 +90,7 @@ private:
         while (token.begin < text_.size() && (text_[token.begin] == ',' || text_[token.begin] == ':')) {
             token = jsonTokenAt(text_, token.end);
         }
+        state_.begin = token.begin;
         state_.end = token.end;
         return places_.at(token.begin, token.end);
     }

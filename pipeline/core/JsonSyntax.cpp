@@ -23,6 +23,8 @@ public:
     Problem explain() const {
         const std::size_t pos = skipJsonBlanks(text_, state_.end);
         if (has(reason_, "invalid comment")) return commentProblem();
+        // In `01` and `truefalse` the parser takes a good token and refuses the rest of the word.
+        if (stop_ < state_.end) return valueProblem(state_.begin);
         switch (state_.after) {
             case JsonState::After::Nothing:
                 return firstValueProblem(pos);
@@ -51,7 +53,7 @@ private:
         const JsonToken token = jsonTokenAt(text_, pos);
         std::string word(text_.substr(token.begin, std::min(token.end - token.begin, kMaxQuotedBytes)));
         if (token.end - token.begin > kMaxQuotedBytes) word += "…";
-        return "'" + word + "'";
+        return word.front() == '"' || word.front() == '\'' ? word : "'" + word + "'";
     }
 
     Problem problem(std::size_t pos, std::string message, std::string help) const {

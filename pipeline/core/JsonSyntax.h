@@ -25,9 +25,10 @@ JsonToken jsonTokenAt(std::string_view text, std::size_t pos);
 struct JsonState {
     enum class After { Nothing, ObjectStart, Key, ArrayStart, ObjectValue, ArrayValue, Document };
     After after = After::Nothing;
-    std::size_t end = 0;  ///< where the last good token ends
-    std::string key;      ///< of the member being read
-    SourceLoc opener;     ///< of the innermost open object or array
+    std::size_t begin = 0;  ///< of the last good token
+    std::size_t end = 0;    ///< of the last good token
+    std::string key;        ///< of the member being read
+    SourceLoc opener;       ///< of the innermost open object or array
 };
 
 /// `stopByte` (offset) and `reason` come from the parser; the reason only chooses between our own texts.
