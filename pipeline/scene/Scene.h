@@ -44,16 +44,16 @@ struct Mesh {
     Aabb bounds;               ///< Object space.
 };
 
-enum class Wrap : std::uint8_t { Repeat, Mirror, Clamp };
+enum class TextureWrap : std::uint8_t { Repeat, Mirror, Clamp };
 struct SamplerDesc {
-    Wrap wrapU = Wrap::Repeat, wrapV = Wrap::Repeat;
+    TextureWrap wrapU = TextureWrap::Repeat, wrapV = TextureWrap::Repeat;
     bool linearMag = true, linearMin = true;
     bool mipmaps = true, linearMip = true;
     bool operator==(const SamplerDesc&) const = default;
 };
 
 /// A decoded picture. RGBA8; `srgb` when colours (base colour, emissive) are stored in it.
-struct Texture {
+struct SceneTexture {
     std::string name;
     Image image;
     bool srgb = false;
@@ -86,6 +86,7 @@ struct Instance {
     int material = 0;   ///< Always valid: a default material is added for primitives without one.
     glm::mat4 world{1};
     std::string name;
+    bool flipped = false;  ///< The matrix mirrors (negative determinant): front faces are clockwise in world space.
 };
 
 enum class LightType : std::uint8_t { Directional, Point, Spot };
@@ -126,7 +127,7 @@ struct Sky {
 struct Scene {
     std::string name;
     std::vector<Mesh> meshes;
-    std::vector<Texture> textures;
+    std::vector<SceneTexture> textures;
     std::vector<SceneMaterial> materials;
     std::vector<Instance> instances;
     std::vector<Light> lights;

@@ -1,0 +1,37 @@
+// glTF 2.0 files (.gltf and .glb) as scenes. Hostile files end in an Error, never in a crash; see docs/scenes.md for
+// what is read.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <vector>
+
+#include "core/Log.h"
+#include "scene/Scene.h"
+
+namespace crevice {
+
+/// What a scene file may ask for before it is refused.
+struct LoadLimits {
+    std::size_t maxFileBytes = std::size_t(2) << 30;  ///< Each file, and each decoded buffer.
+    std::size_t maxVertices = 100'000'000;            ///< Over all meshes; indices: six times as many.
+    std::size_t maxInstances = 1'000'000;
+    std::uint32_t maxImageSide = 16384;                ///< Pixels.
+    std::size_t maxImageBytes = std::size_t(4) << 30;  ///< Over all decoded images.
+    int maxNodeDepth = 256;
+};
+
+struct LoadOptions {
+    const Log& log;  ///< Receives warnings and notes.
+    LoadLimits limits{};
+    /// Folder trees that files may be read from, besides the scene's own.
+    std::vector<std::filesystem::path> allowedRoots{};
+    /// A `.scene.json` may name a glTF anywhere ("../…"). For trusted scenes only.
+    bool allowOutside = false;
+};
+
+/// Throws Error with the file and the path inside it (`accessors[3]`).
+Scene loadGltf(const std::filesystem::path& path, const LoadOptions& options);
+
+}  // namespace crevice
