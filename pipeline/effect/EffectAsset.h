@@ -15,17 +15,20 @@ namespace crevice {
 
 struct EffectProperty {
     std::string name;
-    Value value;                    ///< Number, array of 2-4 numbers, or a texture keyword (white, black, grey, normal); null = none given.
-    std::string target;             ///< Uniform it feeds, with an optional swizzle; empty = its own name.
-    bool linear = false;            ///< Colours given in sRGB are converted.
+    Value
+        value;  ///< Number, array of 2-4 numbers, or a texture keyword (white, black, grey, normal); null = none given.
+    std::string target;   ///< Uniform it feeds, with an optional swizzle; empty = its own name.
+    bool linear = false;  ///< Colours given in sRGB are converted.
+    Value sampler;        ///< Filter and address modes of a texture property as written; null = none given.
     double min = -std::numeric_limits<double>::infinity();  ///< editor.range
     double max = std::numeric_limits<double>::infinity();
-    std::string help;               ///< editor.tooltip
+    std::string help;  ///< editor.tooltip
     SourceLoc where;
 };
 
 struct EffectPass {
-    std::string vertex, fragment, compute;   ///< "program" or "program:entry"
+    std::string vertex, fragment, compute;  ///< "program" or "program:entry"
+    SourceLoc vertexWhere, fragmentWhere, computeWhere;
     std::string phase = "default";
     int priority = 128;
     std::vector<EffectProperty> properties;
@@ -43,18 +46,23 @@ struct EffectTechnique {
 
 struct EffectProgram {
     std::string text;
-    int firstLine = 1;              ///< Line of the file on which `text` begins.
+    int firstLine = 1;  ///< Line of the file on which `text` begins.
 };
 
 struct EffectAsset {
-    std::string name;               ///< Name under effects/, without ending.
+    std::string name;  ///< Name under effects/, without ending.
     std::string path;
     std::vector<EffectTechnique> techniques;
     std::map<std::string, EffectProgram, std::less<>> programs;
     SourceLoc where;
 };
 
-/// Strict reading: an unknown key is an error. Collects into `problems`; the result is usable only when it has no errors.
-EffectAsset parseEffect(std::string_view text, const std::string& name, const std::string& path, Problems& problems);
+/// Strict reading: an unknown key is an error; Tolerant (Cocos' own files): unknown keys and states without effect are
+/// skipped.
+enum class EffectReading { Strict, Tolerant };
+
+/// Collects into `problems`; the result is usable only when it has no errors.
+EffectAsset parseEffect(std::string_view text, const std::string& name, const std::string& path, Problems& problems,
+                        EffectReading reading = EffectReading::Strict);
 
 }  // namespace crevice

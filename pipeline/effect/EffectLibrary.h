@@ -12,22 +12,20 @@
 #include "core/Files.h"
 #include "core/Log.h"
 #include "core/RenderState.h"
+#include "effect/Defines.h"
 #include "effect/EffectAsset.h"
 #include "effect/ShaderInfo.h"
 
 namespace crevice {
 
-/// Macro values as text: "1", "0", "3", "v_uv". Bools are "1" / "0".
-using Defines = std::map<std::string, std::string, std::less<>>;
-
 /// One compiled pass of an effect with one set of macros. Immutable, lives as long as the library.
 struct EffectVariant {
-    std::string name;                       ///< "ssao|fullscreen-vs|ssao-fs"
+    std::string name;  ///< "ssao|fullscreen-vs|ssao-fs"
     std::string effect;
-    const EffectPass* pass = nullptr;       ///< State, properties, phase.
+    const EffectPass* pass = nullptr;                      ///< State, properties, phase.
     std::vector<std::uint32_t> vertex, fragment, compute;  ///< SPIR-V; empty where absent.
     ShaderInfo info;
-    std::uint64_t id = 0;                   ///< Unique in the library.
+    std::uint64_t id = 0;  ///< Unique in the library.
 };
 
 /// What to compile: effect by name or path, technique and pass by index.
@@ -36,7 +34,7 @@ struct VariantRequest {
     std::size_t technique = 0;
     std::size_t pass = 0;
     Defines defines;
-    SourceLoc where;                        ///< Who asked, for "no effect named" errors.
+    SourceLoc where;  ///< Who asked, for "no effect named" errors.
 };
 
 class EffectLibrary {
@@ -50,12 +48,22 @@ public:
 
     /// The parsed effect. Throws Error: no such effect (with near names), header and GLSL structure errors.
     const EffectAsset& asset(const std::string& effect, const SourceLoc& where = {});
-    /// Compiles or fetches. Throws Error with the author's file:line for GLSL errors, unknown programs, clashing numbers, unknown defines.
+    /// Compiles or fetches. Throws Error with the author's file:line for GLSL errors, unknown programs, clashing
+    /// numbers, unknown defines.
     const EffectVariant& get(const VariantRequest& request, const BindingMap& bindings);
-    /// Text handed to glslang for a stage ("vert", "frag", "comp"), for `effects compile --text` and the kernel bake.
-    void setChunk(const std::string& name, std::string text);  ///< A generated chunk that `#include <name>` finds first.
+    /// A generated chunk that `#include <name>` finds before files (the kernel bake). Variants made before keep their
+    /// code.
+    void setChunk(const std::string& name, std::string text);
 
-    struct Counters { std::size_t compiled = 0, fromDisk = 0, fromMemory = 0; };
+    /// The macros a pass understands, in order of first appearance (vertex, then fragment). Throws as asset() does.
+    std::vector<DefineInfo> discoverDefines(const std::string& effect, std::size_t technique = 0, std::size_t pass = 0);
+    /// The text handed to glslang for a stage, for `effects compile --text`; empty when the pass lacks the stage.
+    std::string text(const VariantRequest& request, ShaderStageBits stage);
+    const AssetRoots& roots() const;
+
+    struct Counters {
+        std::size_t compiled = 0, fromDisk = 0, fromMemory = 0;
+    };
     const Counters& counters() const;
 
 private:

@@ -1,4 +1,5 @@
-// What a compiled shader declares and what it really uses: the plain facts that plans, descriptor sets and materials are made from.
+// What a compiled shader declares and what it really uses: the plain facts that plans, descriptor sets and materials
+// are made from.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +11,11 @@
 
 namespace crevice {
 
-enum ShaderStageBits : std::uint32_t { kVertexBit = 1, kFragmentBit = 16, kComputeBit = 32 };  // Cocos' and Vulkan's values
+enum ShaderStageBits : std::uint32_t {
+    kVertexBit = 1,
+    kFragmentBit = 16,
+    kComputeBit = 32
+};  // Cocos' and Vulkan's values
 
 struct BindingSlot {
     std::uint32_t set = 0;
@@ -19,7 +24,8 @@ struct BindingSlot {
     auto operator<=>(const BindingSlot&) const = default;
 };
 
-/// Names → numbers handed down by the pipeline: set 0 (global) and set 2 (local). A name not listed goes to set 1 (material).
+/// Names → numbers handed down by the pipeline: set 0 (global) and set 2 (local). A name not listed goes to set 1
+/// (material).
 using BindingMap = std::map<std::string, BindingSlot, std::less<>>;
 
 enum class ResourceKind : std::uint8_t { UniformBlock, CombinedSampler, StorageBuffer, StorageImage };
@@ -33,25 +39,25 @@ struct BlockMember {
 };
 
 struct ShaderResource {
-    std::string name;              ///< Block name, or the sampler's / image's variable name.
+    std::string name;  ///< Block name, or the sampler's / image's variable name.
     ResourceKind kind = ResourceKind::UniformBlock;
     BindingSlot slot;
     std::uint32_t count = 1;
-    std::uint32_t stages = 0;      ///< ShaderStageBits in which it is declared.
-    bool active = false;           ///< Statically used by an entry point: what Vulkan judges, what a plan calls a read.
-    bool cube = false;             ///< Samplers: samplerCube.
-    bool readOnly = false;         ///< Images and buffers.
+    std::uint32_t stages = 0;  ///< ShaderStageBits in which it is declared.
+    bool active = false;       ///< Statically used by an entry point: what Vulkan judges, what a plan calls a read.
+    bool cube = false;         ///< Samplers: samplerCube.
+    bool readOnly = false;     ///< Images and buffers.
     bool writeOnly = false;
-    std::uint32_t size = 0;        ///< Blocks: bytes.
+    std::uint32_t size = 0;  ///< Blocks: bytes.
     std::vector<BlockMember> members;
-    SourceLoc where;               ///< The declaration in the author's file.
-    SourceLoc firstUse;            ///< A line that mentions the name outside its declaration, if one was found.
+    SourceLoc where;     ///< The declaration in the author's file.
+    SourceLoc firstUse;  ///< A line that mentions the name outside its declaration, if one was found.
 };
 
 struct ShaderVariable {
     std::string name;
     std::uint32_t location = 0;
-    std::string type;              ///< "vec3"…
+    std::string type;  ///< "vec3"…
     bool active = false;
 };
 

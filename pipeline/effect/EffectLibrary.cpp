@@ -1,0 +1,251 @@
+// Effects by name, variants by defines: in memory by request, on disk by content.
+#include "effect/EffectLibrary.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "core/Text.h"
+#include "effect/Includes.h"
+#include "effect/ShaderCompiler.h"
+#include "effect/SpirvCache.h"
+#include "effect/VariantBuilder.h"
+
+namespace crevice {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kMaxEffectBytes = 16u << 20;
+
+/// Everything of a request that can change the answer, as one text.
+std::string requestKey(const VariantRequest& request, const BindingMap& bindings, std::uint64_t generation) {
+    std::string key = fmt::format("{}\n{} {} {}\n", request.effect, request.technique, request.pass, generation);
+    for (const auto& [name, value] : request.defines) key += fmt::format("{}={}\n", name, value);
+    for (const auto& [name, slot] : bindings) key += fmt::format("{}:{}.{}\n", name, slot.set, slot.binding);
+    return key;
+}
+
+/// Everything the compiler sees: its version, the texts, and the numbers of the names that the texts contain.
+std::string contentKey(const std::vector<StageSource>& sources, const BindingMap& bindings) {
+    std::string content = ShaderCompiler::version() + "\n";
+    for (const StageSource& source : sources)
+        content += fmt::format("stage {}\n{}{}\n", static_cast<int>(source.stage), source.head, source.text);
+    for (const auto& [name, slot] : bindings) {
+        const bool named = std::any_of(sources.begin(), sources.end(), [&](const StageSource& source) {
+            return source.text.find(name) != std::string::npos;
+        });
+        if (named) content += fmt::format("{}:{}.{}\n", name, slot.set, slot.binding);
+    }
+    return contentHash(content);
+}
+
+std::string variantName(const std::string& effect, const EffectPass& pass) {
+    if (!pass.compute.empty()) return effect + "|" + pass.compute;
+    return effect + "|" + pass.vertex + "|" + pass.fragment;
+}
+
+}  // namespace
+
+struct EffectLibrary::State {
+    AssetRoots roots;
+    Log log;
+    SpirvCache disk;
+    ShaderCompiler compiler;
+    std::map<std::string, std::unique_ptr<EffectAsset>> assets;
+    std::vector<std::unique_ptr<EffectVariant>> variants;
+    std::map<std::string, const EffectVariant*> byRequest, byContent;
+    Chunks chunks;
+    std::uint64_t generation = 0;  ///< Counts changes of generated chunks.
+    Counters counters;
+
+    const EffectAsset& asset(const std::string& effect, const SourceLoc& where);
+    fs::path findFile(const std::string& effect, const SourceLoc& where) const;
+    const EffectPass& passOf(const EffectAsset& asset, const VariantRequest& request) const;
+    IncludeSources sourcesOf(const EffectAsset& asset) const { return {asset, roots, chunks}; }
+    std::vector<std::string> definesOfEffect(const EffectAsset& asset) const;
+    std::vector<StageSource> stagesOf(const EffectAsset& asset, const EffectPass& pass,
+                                      const VariantRequest& request) const;
+    const EffectVariant& make(const VariantRequest& request, const BindingMap& bindings);
+    std::vector<StageCode> codeFor(const std::string& key, const std::vector<StageSource>& sources,
+                                   const BindingMap& bindings);
+};
+
+/// A name below effects/, or a path that ends with .effect: relative to the document that asks, else to the current
+/// folder.
+fs::path EffectLibrary::State::findFile(const std::string& effect, const SourceLoc& where) const {
+    if (effect.ends_with(".effect")) {
+        fs::path path = effect;
+        std::error_code error;
+        const bool fromDocument = !where.file.empty() && fs::is_regular_file(where.file, error);
+        if (fromDocument && path.is_relative()) {
+            const fs::path beside = fs::path(where.file).parent_path() / path;
+            if (fs::is_regular_file(beside, error)) path = beside;
+        }
+        if (fromDocument && !roots.contains(path))
+            throw Error(where, fmt::format("effect '{}' lies outside of the asset folders", effect),
+                        "name an effect below effects/");
+        if (!fs::is_regular_file(path, error)) throw Error(where, fmt::format("no effect file '{}'", effect));
+        return path;
+    }
+    if (const auto path = roots.find(AssetKind::Effect, effect)) return *path;
+    throw Error(where, fmt::format("no effect '{}'", effect),
+                didYouMean(effect, roots.list(AssetKind::Effect), "effects"));
+}
+
+const EffectAsset& EffectLibrary::State::asset(const std::string& effect, const SourceLoc& where) {
+    if (const auto it = assets.find(effect); it != assets.end()) return *it->second;
+    const fs::path path = findFile(effect, where);
+    Problems problems;
+    const std::string name = effect.ends_with(".effect") ? path.stem().string() : effect;
+    auto parsed =
+        std::make_unique<EffectAsset>(parseEffect(readText(path, kMaxEffectBytes), name, path.string(), problems));
+    problems.throwIfErrors();
+    log.write(problems);
+    return *assets.emplace(effect, std::move(parsed)).first->second;
+}
+
+const EffectPass& EffectLibrary::State::passOf(const EffectAsset& asset, const VariantRequest& request) const {
+    const SourceLoc& where = request.where.line != 0 ? request.where : asset.where;
+    if (request.technique >= asset.techniques.size())
+        throw Error(where, fmt::format("effect '{}' has no technique {}", asset.name, request.technique),
+                    fmt::format("it has {}, counted from 0", asset.techniques.size()));
+    const EffectTechnique& technique = asset.techniques[request.technique];
+    if (request.pass >= technique.passes.size())
+        throw Error(
+            where,
+            fmt::format("technique {} of effect '{}' has no pass {}", request.technique, asset.name, request.pass),
+            fmt::format("it has {}, counted from 0", technique.passes.size()));
+    return technique.passes[request.pass];
+}
+
+std::vector<std::string> EffectLibrary::State::definesOfEffect(const EffectAsset& asset) const {
+    std::vector<std::string> names;
+    Problems ignored;  // Each pass reports its own mistakes when it is compiled.
+    for (const EffectTechnique& technique : asset.techniques)
+        for (const EffectPass& pass : technique.passes)
+            for (DefineInfo& info : findDefines(flattenPass(sourcesOf(asset), pass, ignored).pointers(), ignored))
+                names.push_back(std::move(info.name));
+    return names;
+}
+
+std::vector<StageSource> EffectLibrary::State::stagesOf(const EffectAsset& asset, const EffectPass& pass,
+                                                        const VariantRequest& request) const {
+    Problems problems;
+    FlatPass flat = flattenPass(sourcesOf(asset), pass, problems);
+    problems.throwIfErrors();
+    const bool several = asset.techniques.size() > 1 || asset.techniques.front().passes.size() > 1;
+    const auto elsewhere = several && !request.defines.empty() ? definesOfEffect(asset) : std::vector<std::string>{};
+    auto sources = makeStageSources(std::move(flat), pass, request, elsewhere, problems);
+    checkPropertyTargets(asset.name, pass, sources, problems);
+    problems.throwIfErrors();
+    return sources;
+}
+
+std::vector<StageCode> EffectLibrary::State::codeFor(const std::string& key, const std::vector<StageSource>& sources,
+                                                     const BindingMap& bindings) {
+    std::vector<StageCode> code = disk.load(key);
+    const bool complete = std::equal(code.begin(), code.end(), sources.begin(), sources.end(),
+                                     [](const StageCode& c, const StageSource& s) { return c.stage == s.stage; });
+    if (complete) {
+        ++counters.fromDisk;
+        return code;
+    }
+    Problems problems;
+    code = compiler.compile(sources, bindings, problems);
+    problems.throwIfErrors();
+    ++counters.compiled;
+    disk.store(key, code);
+    return code;
+}
+
+const EffectVariant& EffectLibrary::State::make(const VariantRequest& request, const BindingMap& bindings) {
+    const EffectAsset& effect = asset(request.effect, request.where);
+    const EffectPass& pass = passOf(effect, request);
+    const std::vector<StageSource> sources = stagesOf(effect, pass, request);
+    const std::string key = contentKey(sources, bindings);
+    const std::string place = fmt::format("{} {} {} {}", request.effect, request.technique, request.pass, key);
+    if (const auto it = byContent.find(place); it != byContent.end()) {
+        ++counters.fromMemory;
+        return *it->second;
+    }
+    auto variant = std::make_unique<EffectVariant>();
+    variant->name = variantName(effect.name, pass);
+    variant->effect = request.effect;
+    variant->pass = &pass;
+    variant->id = variants.size() + 1;
+    std::vector<StageCode> code = codeFor(key, sources, bindings);
+    Problems problems;
+    variant->info = reflectStages(code, sources, problems);
+    problems.throwIfErrors();
+    for (StageCode& stage : code)
+        (stage.stage == kVertexBit     ? variant->vertex
+         : stage.stage == kFragmentBit ? variant->fragment
+                                       : variant->compute) = std::move(stage.words);
+    byContent[place] = variant.get();
+    variants.push_back(std::move(variant));
+    return *variants.back();
+}
+
+EffectLibrary::EffectLibrary(AssetRoots roots, const Log& log, Options options)
+    : state_(new State{std::move(roots),
+                       log,
+                       SpirvCache(options.useDiskCache ? cacheFolder("spirv") : std::nullopt),
+                       {},
+                       {},
+                       {},
+                       {},
+                       {},
+                       {},
+                       0,
+                       {}}) {}
+EffectLibrary::EffectLibrary(AssetRoots roots, const Log& log) : EffectLibrary(std::move(roots), log, Options{}) {}
+EffectLibrary::~EffectLibrary() = default;
+
+const EffectAsset& EffectLibrary::asset(const std::string& effect, const SourceLoc& where) {
+    return state_->asset(effect, where);
+}
+
+const EffectVariant& EffectLibrary::get(const VariantRequest& request, const BindingMap& bindings) {
+    const std::string key = requestKey(request, bindings, state_->generation);
+    if (const auto it = state_->byRequest.find(key); it != state_->byRequest.end()) {
+        ++state_->counters.fromMemory;
+        return *it->second;
+    }
+    const EffectVariant& variant = state_->make(request, bindings);
+    state_->byRequest[key] = &variant;
+    return variant;
+}
+
+void EffectLibrary::setChunk(const std::string& name, std::string text) {
+    std::string& present = state_->chunks[name];
+    if (present == text) return;
+    present = std::move(text);
+    ++state_->generation;
+}
+
+std::vector<DefineInfo> EffectLibrary::discoverDefines(const std::string& effect, std::size_t technique,
+                                                       std::size_t pass) {
+    const EffectAsset& found = asset(effect);
+    VariantRequest request;
+    request.effect = effect;
+    request.technique = technique;
+    request.pass = pass;
+    Problems problems;
+    const FlatPass flat = flattenPass(state_->sourcesOf(found), state_->passOf(found, request), problems);
+    std::vector<DefineInfo> infos = findDefines(flat.pointers(), problems);
+    problems.throwIfErrors();
+    return infos;
+}
+
+std::string EffectLibrary::text(const VariantRequest& request, ShaderStageBits stage) {
+    const EffectAsset& found = asset(request.effect, request.where);
+    for (const StageSource& source : state_->stagesOf(found, state_->passOf(found, request), request))
+        if (source.stage == stage) return source.head + source.text;
+    return {};
+}
+
+const AssetRoots& EffectLibrary::roots() const { return state_->roots; }
+const EffectLibrary::Counters& EffectLibrary::counters() const { return state_->counters; }
+
+}  // namespace crevice

@@ -1,0 +1,150 @@
+// Turns glslang's log into problems at the author's file and line.
+#include "effect/GlslMessages.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <optional>
+
+#include "core/Text.h"
+#include "effect/Declarations.h"
+
+namespace crevice {
+namespace {
+
+/// "ERROR: 0:12: 'word' : what is wrong" taken apart.
+struct Message {
+    bool error = false;
+    int line = 0;
+    std::string word, text;
+};
+
+std::optional<Message> parseMessage(std::string_view line) {
+    Message message;
+    if (line.starts_with("ERROR: "))
+        message.error = true;
+    else if (!line.starts_with("WARNING: "))
+        return std::nullopt;
+    line.remove_prefix(message.error ? 7 : 9);
+    const auto colon = line.find(':');
+    if (colon == std::string_view::npos) return std::nullopt;
+    const char* end = line.data() + line.size();
+    const auto [rest, error] = std::from_chars(line.data() + colon + 1, end, message.line);
+    if (error != std::errc{} || rest == end || *rest != ':') return std::nullopt;
+    line = std::string_view(rest + 1, static_cast<std::size_t>(end - rest - 1));
+    if (line.starts_with(' ')) line.remove_prefix(1);
+    const auto close = line.find("' : ");
+    if (line.starts_with('\'') && close != std::string_view::npos) {
+        message.word = line.substr(1, close - 1);
+        line.remove_prefix(close + 4);
+    }
+    message.text = line;
+    while (!message.text.empty() && message.text.back() == ' ') message.text.pop_back();
+    return message;
+}
+
+std::vector<std::string_view> splitLines(std::string_view text) {
+    std::vector<std::string_view> lines;
+    for (std::size_t at = 0; at < text.size();) {
+        const auto end = std::min(text.find('\n', at), text.size());
+        lines.push_back(text.substr(at, end - at));
+        at = end + 1;
+    }
+    return lines;
+}
+
+/// Column and width of a word in a line of the stage's text; the whole line when it is not there.
+SourceLoc placeOf(const StageSource& source, int line, std::string_view word) {
+    const auto lines = splitLines(source.text);
+    if (line < 1 || line > static_cast<int>(lines.size())) return source.flat.locate(line);
+    const std::string_view text = lines[static_cast<std::size_t>(line) - 1];
+    auto at = word.empty() ? std::string_view::npos : text.find(word);
+    auto length = word.size();
+    if (at == std::string_view::npos) {
+        at = std::min(text.find_first_not_of(" \t"), text.size());
+        length = std::max<std::size_t>(1, text.substr(at).size());
+    }
+    return source.flat.locate(line, static_cast<int>(at) + 1, static_cast<int>(length));
+}
+
+bool contains(std::string_view text, std::string_view part) { return text.find(part) != std::string_view::npos; }
+
+/// "uniform vec3 x;" without a block: the name that should move into one.
+std::string looseUniformName(const StageSource& source, int line) {
+    const auto lines = splitLines(source.text);
+    if (line < 1 || line > static_cast<int>(lines.size())) return {};
+    const auto tokens = tokenizeGlsl(lines[static_cast<std::size_t>(line) - 1]);
+    for (std::size_t i = 1; i < tokens.size(); ++i)
+        if ((tokens[i].text == ";" || tokens[i].text == "[" || tokens[i].text == "=") && tokens[i - 1].isName())
+            return std::string(tokens[i - 1].text);
+    return {};
+}
+
+Problem describe(const Message& message, const StageSource& source, int line) {
+    if (contains(message.text + message.word, "non-opaque uniforms outside a block")) {
+        const std::string name = looseUniformName(source, line);
+        return {Severity::Error, placeOf(source, line, name), fmt::format("uniform '{}' stands outside a block", name),
+                fmt::format("put it into a block: uniform Properties {{ … {}; }};", name.empty() ? "name" : name)};
+    }
+    Problem problem{Severity::Error, placeOf(source, line, message.word), "GLSL: " + message.text, {}};
+    if (!message.word.empty()) problem.message = fmt::format("GLSL: '{}': {}", message.word, message.text);
+    if (message.text == "undeclared identifier" || contains(message.text, "no matching overloaded function")) {
+        auto names = Declarations(source.flat).names();
+        std::erase(names, message.word);
+        if (const auto near = nearestNames(message.word, names, 1); !near.empty())
+            problem.help = fmt::format("did you mean '{}'?", near[0]);
+    }
+    return problem;
+}
+
+/// Remarks that only say that an error was said before.
+bool isSummary(const Message& message) {
+    return contains(message.text, "compilation terminated") || contains(message.text, "compilation errors");
+}
+
+}  // namespace
+
+void reportGlslMessages(std::string_view log, const StageSource& source, Problems& problems) {
+    const int headLines = static_cast<int>(std::count(source.head.begin(), source.head.end(), '\n'));
+    for (const std::string_view raw : splitLines(log)) {
+        const auto message = parseMessage(raw);
+        if (!message || !message->error || (isSummary(*message) && problems.hasErrors())) continue;
+        const int line = message->line - headLines;
+        if (line < 1) {
+            problems.error(source.flat.locate(1),
+                           fmt::format("GLSL: in the defines: {} {}", message->word, message->text));
+            continue;
+        }
+        const Problem problem = describe(*message, source, line);
+        problems.error(problem.where, problem.message, problem.help);
+    }
+}
+
+void reportLinkMessages(std::string_view log, const std::vector<StageSource>& sources, Problems& problems) {
+    std::string text;
+    for (std::string_view line : splitLines(log)) {
+        if (line.starts_with("WARNING")) continue;
+        if (line.starts_with("ERROR: ")) line.remove_prefix(7);
+        line.remove_prefix(std::min(line.find_first_not_of(' '), line.size()));
+        if (!line.empty()) text += (text.empty() ? "" : "; ") + std::string(line);
+    }
+    // The variables a link message speaks of are those interface names that it contains.
+    SourceLoc where;
+    std::vector<std::string> seen;
+    for (const StageSource& source : sources) {
+        const Declarations declarations(source.flat);
+        for (const GlslToken& token : tokenizeGlsl(text)) {
+            const SourceLoc place = token.isName() ? declarations.declared(token.text) : SourceLoc{};
+            if (place.line == 0) continue;
+            if (where.line == 0) where = place;
+            seen.push_back(fmt::format("{}:{}", place.file, place.line));
+            break;
+        }
+    }
+    if (where.line == 0 && !sources.empty()) where = sources.front().flat.locate(1);
+    problems.error(where, "GLSL: the stages do not fit together: " + text,
+                   seen.size() > 1 ? "declared at " + join(seen, " and ") : std::string());
+}
+
+}  // namespace crevice

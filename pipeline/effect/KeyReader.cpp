@@ -1,0 +1,44 @@
+// Reads an object key by key and reports the keys nobody asked for.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "core/Text.h"
+#include "effect/EffectHeader.h"
+
+namespace crevice {
+
+KeyReader::KeyReader(const Value& object, std::string what, EffectReading reading, Problems& problems)
+    : object_(object), what_(std::move(what)), reading_(reading), problems_(problems) {}
+
+const Value* KeyReader::find(const char* key) {
+    known_.emplace_back(key);
+    return object_.find(key);
+}
+
+const Value* KeyReader::typed(const char* key, bool (Value::*is)() const, const char* wanted) {
+    const Value* value = find(key);
+    if (value == nullptr || (value->*is)()) return value;
+    problems_.error(value->where(),
+                    fmt::format("'{}' of {} must be {}, not {}", key, what_, wanted, value->typeName()));
+    return nullptr;
+}
+
+const Value* KeyReader::string(const char* key) { return typed(key, &Value::isString, "a string"); }
+const Value* KeyReader::number(const char* key) { return typed(key, &Value::isNumber, "a number"); }
+const Value* KeyReader::boolean(const char* key) { return typed(key, &Value::isBool, "true or false"); }
+const Value* KeyReader::array(const char* key) { return typed(key, &Value::isArray, "a list"); }
+const Value* KeyReader::object(const char* key) { return typed(key, &Value::isObject, "a map"); }
+
+void KeyReader::finish() {
+    if (!strict()) return;
+    for (const Member& member : object_.members()) {
+        if (std::find(known_.begin(), known_.end(), member.key) != known_.end()) continue;
+        SourceLoc where = member.keyLoc;
+        where.length = std::max(1, static_cast<int>(member.key.size()));
+        problems_.error(where, fmt::format("unknown key '{}' in {}", member.key, what_),
+                        didYouMean(member.key, known_, "keys"));
+    }
+}
+
+}  // namespace crevice

@@ -1,0 +1,270 @@
+// Fills the uniform blocks of set 1 from property values, by name.
+#include "effect/Material.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include "core/Text.h"
+
+namespace crevice {
+namespace {
+
+constexpr std::uint32_t kMaterialSet = 1;
+constexpr const char* kAuto = "auto";
+
+/// The transfer function of IEC 61966-2-1.
+float linearFromSrgb(float c) { return c <= 0.04045f ? c / 12.92f : std::pow((c + 0.055f) / 1.055f, 2.4f); }
+
+/// How many numbers a value holds; 0 for words.
+std::uint32_t countOf(const Value& value) {
+    if (value.isNumber()) return 1;
+    return value.isArray() ? static_cast<std::uint32_t>(value.items().size()) : 0;
+}
+
+double component(const Value& value, std::uint32_t index) {
+    return value.isNumber() ? value.number() : value.items()[index].number();
+}
+
+bool isAuto(const Value& value) { return value.isString() && value.string() == kAuto; }
+
+struct MemberShape {
+    bool known = false, integer = false;
+    std::uint32_t components = 0;
+};
+
+MemberShape shapeOf(const BlockMember& member) {
+    const std::string& type = member.type;
+    if (member.arrayCount != 0) return {};
+    if (type == "float") return {true, false, 1};
+    if (type == "int" || type == "uint") return {true, true, 1};
+    if (type == "mat4") return {true, false, 16};
+    const bool integer = type.starts_with('i') || type.starts_with('u');
+    if (type.size() == (integer ? 5u : 4u) && type.find("vec") != std::string::npos)
+        return {true, integer, static_cast<std::uint32_t>(type.back() - '0')};
+    return {};
+}
+
+std::string swizzleOf(const EffectProperty& property) {
+    const auto dot = property.target.find('.');
+    return dot == std::string::npos ? std::string() : property.target.substr(dot + 1);
+}
+
+/// First component of a run such as "yz"; -1 when it is none.
+int swizzleStart(const std::string& swizzle) {
+    for (const std::string all : {"xyzw", "rgba"})
+        if (const auto at = all.find(swizzle); at != std::string::npos) return static_cast<int>(at);
+    return -1;
+}
+
+std::string numbers(std::uint32_t count) { return count == 1 ? "1 number" : fmt::format("{} numbers", count); }
+
+Value makeNumbers(std::initializer_list<float> values) {
+    Value list = Value::makeArray();
+    for (const float value : values) list.items().push_back(Value::makeNumber(value));
+    return list;
+}
+
+}  // namespace
+
+std::string Material::targetUniform(const EffectProperty& property) {
+    return property.target.empty() ? property.name : property.target.substr(0, property.target.find('.'));
+}
+
+Material::Material(const EffectVariant& variant) : variant_(variant), pass_(*variant.pass) {
+    for (const ShaderResource& resource : variant.info.resources) {
+        if (resource.slot.set != kMaterialSet) continue;
+        if (resource.kind == ResourceKind::UniformBlock) {
+            blocks_.push_back({resource.name, resource.slot, std::vector<std::byte>(resource.size)});
+        } else if (resource.kind == ResourceKind::CombinedSampler) {
+            MaterialSampler sampler;
+            sampler.name = resource.name;
+            sampler.slot = resource.slot;
+            sampler.cube = resource.cube;
+            sampler.texture = "white";
+            sampler.where = resource.where;
+            samplers_.push_back(std::move(sampler));
+        }
+    }
+    Problems problems;
+    for (const EffectProperty& property : pass_.properties) {
+        if (MaterialSampler* sampler = findSampler(targetUniform(property))) {
+            sampler->isProperty = true;
+            sampler->sampler = property.sampler;
+        }
+        if (!property.value.isNull()) setValue(property, property.value, problems);
+    }
+    problems.throwIfErrors();
+}
+
+void Material::apply(const Value& object, Problems& problems) {
+    if (object.isNull()) return;
+    if (!object.isObject()) {
+        problems.error(object.where(), fmt::format("'material' must be an object, not {}", object.typeName()));
+        return;
+    }
+    for (const Member& member : object.members()) {
+        if (const EffectProperty* property = findProperty(member.key)) {
+            setValue(*property, member.value, problems);
+            continue;
+        }
+        SourceLoc where = member.keyLoc;
+        where.length = std::max(1, static_cast<int>(member.key.size()));
+        const auto names = propertyNames();
+        problems.error(where, fmt::format("effect '{}' has no property '{}'", variant_.effect, member.key),
+                       names.empty() ? "it has none" : didYouMean(member.key, names, "properties"));
+    }
+}
+
+void Material::setValue(const EffectProperty& property, const Value& value, Problems& problems) {
+    if (MaterialSampler* sampler = findSampler(targetUniform(property)))
+        return setTexture(property, *sampler, value, problems);
+    const bool isTexture = property.value.isString() && !isAuto(property.value);
+    if (isAuto(value) && isAuto(property.value)) {
+        values_[property.name] = value;
+        return;
+    }
+    if (isTexture && value.isString()) {  // The sampler is not in this variant.
+        values_[property.name] = value;
+        return;
+    }
+    if (isTexture) {
+        problems.error(value.where(),
+                       fmt::format("property '{}' is a texture and cannot be {}", property.name, value.typeName()),
+                       "give white, black, grey, normal or a file");
+        return;
+    }
+    if (!checkNumbers(property, value, problems)) return;
+    const std::uint32_t wanted = countOf(property.value);
+    Place place;
+    const bool placed = findPlace(property, place, problems);
+    const std::uint32_t expected = placed ? place.components : wanted;
+    if (expected != 0 && countOf(value) != expected) {
+        problems.error(value.where(),
+                       fmt::format("property '{}' takes {}, not {}", property.name, numbers(expected), countOf(value)));
+        return;
+    }
+    values_[property.name] = value;
+    for (std::uint32_t i = 0; placed && i < place.components; ++i) {
+        float number = static_cast<float>(component(value, i));
+        if (property.linear && i < 3 && place.components >= 3) number = linearFromSrgb(number);
+        const auto integer = static_cast<std::int32_t>(component(value, i));
+        std::byte* out = blocks_[place.block].bytes.data() + place.offset + i * sizeof(float);
+        std::memcpy(out, place.integer ? static_cast<const void*>(&integer) : &number, sizeof(float));
+    }
+}
+
+void Material::setTexture(const EffectProperty& property, MaterialSampler& sampler, const Value& value,
+                          Problems& problems) {
+    if (!value.isString() || value.string().empty()) {
+        problems.error(value.where(),
+                       fmt::format("property '{}' is a texture and cannot be {}", property.name, value.typeName()),
+                       "give white, black, grey, normal or a file");
+        return;
+    }
+    sampler.texture = value.string();
+    sampler.where = value.where();
+    values_[property.name] = value;
+}
+
+bool Material::checkNumbers(const EffectProperty& property, const Value& value, Problems& problems) const {
+    bool good = value.isNumber() || (value.isArray() && !value.items().empty());
+    if (value.isArray())
+        for (const Value& item : value.items()) good = good && item.isNumber();
+    if (!good) {
+        const std::string orAuto = isAuto(property.value) ? " or the word auto" : "";
+        problems.error(value.where(), fmt::format("property '{}' takes numbers{}, not {}", property.name, orAuto,
+                                                  value.isArray() ? "this list" : value.typeName()));
+        return false;
+    }
+    for (std::uint32_t i = 0; i < countOf(value); ++i) {
+        const double number = component(value, i);
+        if (std::isfinite(number) && number >= property.min && number <= property.max) continue;
+        const SourceLoc& where = value.isNumber() ? value.where() : value.items()[i].where();
+        problems.error(where, fmt::format("property '{}' is {}, outside its range", property.name, number),
+                       fmt::format("give {} to {}", property.min, property.max));
+        return false;
+    }
+    return true;
+}
+
+/// Where a property's numbers go. False when this variant has no such member; a property that does not fit is reported.
+bool Material::findPlace(const EffectProperty& property, Place& place, Problems& problems) const {
+    const std::string uniform = targetUniform(property), swizzle = swizzleOf(property);
+    for (const ShaderResource& resource : variant_.info.resources) {
+        if (resource.slot.set != kMaterialSet || resource.kind != ResourceKind::UniformBlock) continue;
+        const auto member = std::find_if(resource.members.begin(), resource.members.end(),
+                                         [&](const BlockMember& m) { return m.name == uniform; });
+        if (member == resource.members.end()) continue;
+        const MemberShape shape = shapeOf(*member);
+        const int start = swizzle.empty() ? 0 : swizzleStart(swizzle);
+        const auto count = static_cast<std::uint32_t>(swizzle.empty() ? shape.components : swizzle.size());
+        if (!shape.known || start < 0 || static_cast<std::uint32_t>(start) + count > shape.components) {
+            problems.error(property.where,
+                           fmt::format("property '{}' cannot feed '{}' of type {}{}", property.name,
+                                       property.target.empty() ? uniform : property.target, member->type,
+                                       member->arrayCount != 0 ? " array" : ""),
+                           "targets are scalars and vectors, or a run of components such as .xy",
+                           {{resource.where, fmt::format("the block '{}'", resource.name)}});
+            return false;
+        }
+        const auto block = std::find_if(blocks_.begin(), blocks_.end(),
+                                        [&](const MaterialBlock& b) { return b.slot == resource.slot; });
+        place = {static_cast<std::size_t>(block - blocks_.begin()),
+                 member->offset + static_cast<std::size_t>(start) * sizeof(float), count, shape.integer};
+        return true;
+    }
+    return false;
+}
+
+void Material::setFromCode(std::string_view name, Value value) {
+    const EffectProperty* property = findProperty(name);
+    if (property == nullptr)
+        throw Error(pass_.where, fmt::format("effect '{}' has no property '{}'", variant_.effect, name),
+                    didYouMean(name, propertyNames(), "properties"));
+    Problems problems;
+    value.setWhere(property->where);
+    setValue(*property, value, problems);
+    problems.throwIfErrors();
+}
+
+void Material::set(std::string_view name, float value) { setFromCode(name, Value::makeNumber(value)); }
+void Material::set(std::string_view name, std::int32_t value) { setFromCode(name, Value::makeNumber(value)); }
+void Material::set(std::string_view name, const glm::vec2& v) { setFromCode(name, makeNumbers({v.x, v.y})); }
+void Material::set(std::string_view name, const glm::vec3& v) { setFromCode(name, makeNumbers({v.x, v.y, v.z})); }
+void Material::set(std::string_view name, const glm::vec4& v) { setFromCode(name, makeNumbers({v.x, v.y, v.z, v.w})); }
+void Material::set(std::string_view name, const std::string& texture) { setFromCode(name, Value::makeString(texture)); }
+
+std::vector<std::string> Material::autoProperties() const {
+    std::vector<std::string> names;
+    for (const auto& [name, value] : values_)
+        if (isAuto(value)) names.push_back(name);
+    return names;
+}
+
+const Value* Material::value(std::string_view name) const {
+    const auto it = values_.find(name);
+    return it == values_.end() ? nullptr : &it->second;
+}
+
+const EffectProperty* Material::findProperty(std::string_view name) const {
+    for (const EffectProperty& property : pass_.properties)
+        if (property.name == name) return &property;
+    return nullptr;
+}
+
+std::vector<std::string> Material::propertyNames() const {
+    std::vector<std::string> names;
+    for (const EffectProperty& property : pass_.properties) names.push_back(property.name);
+    return names;
+}
+
+MaterialSampler* Material::findSampler(std::string_view name) {
+    for (MaterialSampler& sampler : samplers_)
+        if (sampler.name == name) return &sampler;
+    return nullptr;
+}
+
+}  // namespace crevice

@@ -1,0 +1,211 @@
+// Reads the fixed-function states of a pass. Names and defaults are Cocos'.
+#include "effect/RenderStateReader.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <span>
+
+#include "core/Text.h"
+
+namespace crevice {
+namespace {
+
+template <class Enum>
+struct Named {
+    const char* name;
+    Enum value;
+};
+
+constexpr Named<CompareOp> kCompareOps[] = {{"never", CompareOp::Never},
+                                            {"less", CompareOp::Less},
+                                            {"equal", CompareOp::Equal},
+                                            {"less_equal", CompareOp::LessEqual},
+                                            {"greater", CompareOp::Greater},
+                                            {"not_equal", CompareOp::NotEqual},
+                                            {"greater_equal", CompareOp::GreaterEqual},
+                                            {"always", CompareOp::Always}};
+constexpr Named<CullMode> kCullModes[] = {
+    {"none", CullMode::None}, {"front", CullMode::Front}, {"back", CullMode::Back}};
+constexpr Named<PolygonMode> kPolygonModes[] = {
+    {"fill", PolygonMode::Fill}, {"line", PolygonMode::Line}, {"point", PolygonMode::Point}};
+constexpr Named<BlendFactor> kBlendFactors[] = {{"zero", BlendFactor::Zero},
+                                                {"one", BlendFactor::One},
+                                                {"src_alpha", BlendFactor::SrcAlpha},
+                                                {"dst_alpha", BlendFactor::DstAlpha},
+                                                {"one_minus_src_alpha", BlendFactor::OneMinusSrcAlpha},
+                                                {"one_minus_dst_alpha", BlendFactor::OneMinusDstAlpha},
+                                                {"src_color", BlendFactor::SrcColor},
+                                                {"dst_color", BlendFactor::DstColor},
+                                                {"one_minus_src_color", BlendFactor::OneMinusSrcColor},
+                                                {"one_minus_dst_color", BlendFactor::OneMinusDstColor},
+                                                {"src_alpha_saturate", BlendFactor::SrcAlphaSaturate},
+                                                {"constant_color", BlendFactor::ConstantColor},
+                                                {"one_minus_constant_color", BlendFactor::OneMinusConstantColor},
+                                                {"constant_alpha", BlendFactor::ConstantAlpha},
+                                                {"one_minus_constant_alpha", BlendFactor::OneMinusConstantAlpha}};
+constexpr Named<BlendOp> kBlendOps[] = {{"add", BlendOp::Add},
+                                        {"sub", BlendOp::Sub},
+                                        {"rev_sub", BlendOp::RevSub},
+                                        {"min", BlendOp::Min},
+                                        {"max", BlendOp::Max}};
+constexpr Named<Topology> kTopologies[] = {
+    {"point_list", Topology::PointList},         {"line_list", Topology::LineList},
+    {"line_strip", Topology::LineStrip},         {"triangle_list", Topology::TriangleList},
+    {"triangle_strip", Topology::TriangleStrip}, {"triangle_fan", Topology::TriangleFan}};
+constexpr Named<std::uint8_t> kColorMasks[] = {{"none", 0}, {"r", 1}, {"g", 2}, {"b", 4}, {"a", 8}, {"all", 15}};
+
+std::string lower(std::string text) {
+    std::transform(text.begin(), text.end(), text.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return text;
+}
+
+template <class Enum, std::size_t N>
+void readEnum(KeyReader& reader, const char* key, const Named<Enum> (&names)[N], Enum& out) {
+    const Value* value = reader.string(key);
+    if (value == nullptr) return;
+    const std::string word = lower(value->string());
+    std::vector<std::string> known;
+    for (const auto& named : names) {
+        if (word == named.name) {
+            out = named.value;
+            return;
+        }
+        known.emplace_back(named.name);
+    }
+    reader.problems().error(value->where(), fmt::format("'{}' is no value for '{}'", value->string(), key),
+                            didYouMean(word, known, "values"));
+}
+
+void readBool(KeyReader& reader, const char* key, bool& out) {
+    if (const Value* value = reader.boolean(key)) out = value->boolean();
+}
+
+/// A state that Crevice does not have: fine at its default, an error otherwise (skipped in Cocos' own files).
+void expectDefault(KeyReader& reader, const char* key, const Value& standard) {
+    const Value* value = reader.find(key);
+    if (value == nullptr || !reader.strict()) return;
+    bool same = value->type() == standard.type();
+    if (same && value->isString()) same = lower(value->string()) == standard.string();
+    if (same && value->isBool()) same = value->boolean() == standard.boolean();
+    if (same && value->isNumber()) same = value->number() == standard.number();
+    if (same) return;
+    reader.problems().error(value->where(), fmt::format("'{}' is not supported by Crevice", key),
+                            fmt::format("remove it, or leave it at its default {}", standard.toJson(-1)));
+}
+void expectBool(KeyReader& reader, const char* key, bool standard) {
+    expectDefault(reader, key, Value::makeBool(standard));
+}
+void expectNumber(KeyReader& reader, const char* key, double standard) {
+    expectDefault(reader, key, Value::makeNumber(standard));
+}
+void expectWord(KeyReader& reader, const char* key, const char* standard) {
+    expectDefault(reader, key, Value::makeString(standard));
+}
+
+void readRasterizer(KeyReader& reader, RenderState& state) {
+    readEnum(reader, "cullMode", kCullModes, state.cullMode);
+    readEnum(reader, "polygonMode", kPolygonModes, state.polygonMode);
+    readBool(reader, "isFrontFaceCCW", state.frontFaceCcw);
+    bool biased = false;
+    readBool(reader, "depthBiasEnabled", biased);
+    const Value* bias = reader.number("depthBias");
+    const Value* slope = reader.number("depthBiasSlop");
+    for (const Value* value : {bias, slope})
+        if (value != nullptr && value->number() != 0 && !biased && reader.strict())
+            reader.problems().error(value->where(), "a depth bias without 'depthBiasEnabled: true' does nothing",
+                                    "add depthBiasEnabled: true");
+    if (biased && bias != nullptr) state.depthBias = static_cast<float>(bias->number());
+    if (biased && slope != nullptr) state.depthBiasSlope = static_cast<float>(slope->number());
+    expectNumber(reader, "depthBiasClamp", 0);
+    expectBool(reader, "isDiscard", false);
+    expectBool(reader, "isDepthClip", true);
+    expectBool(reader, "isMultisample", false);
+    expectNumber(reader, "lineWidth", 1);
+    expectWord(reader, "shadeModel", "gourand");
+    reader.finish();
+}
+
+void readDepthStencil(KeyReader& reader, RenderState& state) {
+    readBool(reader, "depthTest", state.depthTest);
+    readBool(reader, "depthWrite", state.depthWrite);
+    readEnum(reader, "depthFunc", kCompareOps, state.depthFunc);
+    // Without a suffix a key stands for both faces.
+    for (const std::string side : {"", "Front", "Back"}) {
+        expectBool(reader, ("stencilTest" + side).c_str(), false);
+        expectWord(reader, ("stencilFunc" + side).c_str(), "always");
+        expectNumber(reader, ("stencilReadMask" + side).c_str(), 0xffff);
+        expectNumber(reader, ("stencilWriteMask" + side).c_str(), 0xffff);
+        expectNumber(reader, ("stencilRef" + side).c_str(), 1);
+        for (const char* op : {"stencilFailOp", "stencilZFailOp", "stencilPassOp"})
+            expectWord(reader, (op + side).c_str(), "keep");
+    }
+    reader.finish();
+}
+
+void readColorMask(KeyReader& reader, std::uint8_t& mask) {
+    const Value* value = reader.find("blendColorMask");
+    if (value == nullptr) return;
+    if (value->isInteger() && value->integer() >= 0 && value->integer() <= 15)
+        mask = static_cast<std::uint8_t>(value->integer());
+    else if (value->isString())
+        readEnum(reader, "blendColorMask", kColorMasks, mask);
+    else
+        reader.problems().error(value->where(), "'blendColorMask' must be 0 to 15 or one of none, r, g, b, a, all");
+}
+
+BlendTarget readBlendTarget(KeyReader& reader) {
+    BlendTarget target;
+    readBool(reader, "blend", target.blend);
+    readEnum(reader, "blendSrc", kBlendFactors, target.src);
+    readEnum(reader, "blendDst", kBlendFactors, target.dst);
+    readEnum(reader, "blendEq", kBlendOps, target.op);
+    readEnum(reader, "blendSrcAlpha", kBlendFactors, target.srcAlpha);
+    readEnum(reader, "blendDstAlpha", kBlendFactors, target.dstAlpha);
+    readEnum(reader, "blendAlphaEq", kBlendOps, target.alphaOp);
+    readColorMask(reader, target.colorMask);
+    reader.finish();
+    return target;
+}
+
+void readBlend(KeyReader& reader, RenderState& state) {
+    expectBool(reader, "isA2C", false);
+    reader.boolean("isIndepend");  // Targets are independent in any case.
+    expectNumber(reader, "blendColor", 0);
+    if (const Value* targets = reader.array("targets")) {
+        for (const Value& item : targets->items()) {
+            if (!item.isObject()) {
+                reader.problems().error(item.where(),
+                                        fmt::format("a blend target must be a map, not {}", item.typeName()));
+                continue;
+            }
+            KeyReader target(item, "a blend target", reader.reading(), reader.problems());
+            state.blendTargets.push_back(readBlendTarget(target));
+        }
+    }
+    reader.finish();
+}
+
+}  // namespace
+
+RenderState readRenderState(KeyReader& pass) {
+    RenderState state;
+    readEnum(pass, "primitive", kTopologies, state.topology);
+    const auto section = [&](const char* key, auto read) {
+        const Value* object = pass.object(key);
+        if (object == nullptr) return;
+        KeyReader reader(*object, fmt::format("'{}'", key), pass.reading(), pass.problems());
+        read(reader, state);
+    };
+    section("rasterizerState", readRasterizer);
+    section("depthStencilState", readDepthStencil);
+    section("blendState", readBlend);
+    if (const Value* dynamic = pass.array("dynamicStates");
+        dynamic != nullptr && !dynamic->items().empty() && pass.strict())
+        pass.problems().error(dynamic->where(), "'dynamicStates' is not supported by Crevice", "remove it");
+    return state;
+}
+
+}  // namespace crevice

@@ -1,0 +1,113 @@
+// GLSL stages to SPIR-V by glslang, with bindings by name.
+#include "effect/ShaderCompiler.h"
+
+#include <fmt/format.h>
+#include <glslang/Public/ResourceLimits.h>
+#include <glslang/SPIRV/GlslangToSpv.h>
+#include <glslang/build_info.h>
+
+#include <algorithm>
+
+#include "effect/BindingResolver.h"
+#include "effect/Declarations.h"
+#include "effect/GlslMessages.h"
+
+namespace crevice {
+namespace {
+
+constexpr EShMessages kMessages = static_cast<EShMessages>(EShMsgSpvRules | EShMsgVulkanRules);
+constexpr int kGlslVersion = 450;
+
+EShLanguage toLanguage(ShaderStageBits stage) {
+    if (stage == kVertexBit) return EShLangVertex;
+    return stage == kFragmentBit ? EShLangFragment : EShLangCompute;
+}
+
+/// A shader and the text it keeps pointers to.
+struct ParsedStage {
+    const StageSource* source = nullptr;
+    std::string text;
+    std::unique_ptr<glslang::TShader> shader;
+};
+
+bool parseStage(ParsedStage& stage, Problems& problems) {
+    const EShLanguage language = toLanguage(stage.source->stage);
+    stage.text = stage.source->head + stage.source->text;
+    stage.shader = std::make_unique<glslang::TShader>(language);
+    const char* text = stage.text.c_str();
+    const int length = static_cast<int>(stage.text.size());
+    stage.shader->setStringsWithLengths(&text, &length, 1);
+    stage.shader->setEnvInput(glslang::EShSourceGlsl, language, glslang::EShClientVulkan, 100);
+    stage.shader->setEnvClient(glslang::EShClientVulkan, glslang::EShTargetVulkan_1_2);
+    // SPIR-V 1.5: from 1.6 on glslang writes LocalSizeId, which needs a feature of Vulkan 1.3.
+    stage.shader->setEnvTarget(glslang::EShTargetSpv, glslang::EShTargetSpv_1_5);
+    stage.shader->setAutoMapBindings(true);
+    stage.shader->setAutoMapLocations(true);
+    const bool ok = stage.shader->parse(GetDefaultResources(), kGlslVersion, false, kMessages);
+    reportGlslMessages(stage.shader->getInfoLog(), *stage.source, problems);
+    if (!ok && !problems.hasErrors()) problems.error(stage.source->flat.locate(1), "the shader does not compile");
+    return ok;
+}
+
+}  // namespace
+
+struct ShaderCompiler::Process {
+    Process() { glslang::InitializeProcess(); }
+    ~Process() { glslang::FinalizeProcess(); }
+    Process(const Process&) = delete;
+    Process& operator=(const Process&) = delete;
+};
+
+ShaderCompiler::ShaderCompiler() = default;
+ShaderCompiler::~ShaderCompiler() = default;
+
+std::vector<StageCode> ShaderCompiler::compile(const std::vector<StageSource>& sources, const BindingMap& bindings,
+                                               Problems& problems) {
+    if (!process_) process_ = std::make_unique<Process>();
+    Problems own;
+    const auto fail = [&] {
+        if (own.hasErrors()) problems.add(Error(own.all()));
+        return std::vector<StageCode>{};
+    };
+    std::vector<ParsedStage> stages(sources.size());
+    bool parsed = true;
+    for (std::size_t i = 0; i < sources.size(); ++i) {
+        stages[i].source = &sources[i];
+        parsed = parseStage(stages[i], own) && parsed;
+    }
+    if (!parsed || own.hasErrors()) return fail();
+
+    glslang::TProgram program;  // Declared behind the shaders: it must go first.
+    for (const ParsedStage& stage : stages) program.addShader(stage.shader.get());
+    if (!program.link(kMessages)) {
+        reportLinkMessages(program.getInfoLog(), sources, own);
+        return fail();
+    }
+    std::map<EShLanguage, Declarations> declarations;
+    for (const StageSource& source : sources) declarations.emplace(toLanguage(source.stage), Declarations(source.flat));
+    BindingResolver resolver(
+        bindings, [&](EShLanguage stage, const std::string& name) { return declarations.at(stage).declared(name); },
+        own);
+    glslang::TGlslIoMapper mapper;
+    const bool mapped = program.mapIO(&resolver, &mapper);
+    if (!mapped && !own.hasErrors()) reportLinkMessages(program.getInfoLog(), sources, own);
+    if (own.hasErrors()) return fail();
+
+    std::vector<StageCode> code;
+    for (const ParsedStage& stage : stages) {
+        glslang::SpvOptions options;
+        options.disableOptimizer = true;  // What is reflected must be what runs; see SPIRV-Cross' active set.
+        StageCode& out = code.emplace_back();
+        out.stage = stage.source->stage;
+        glslang::GlslangToSpv(*program.getIntermediate(toLanguage(out.stage)), out.words, &options);
+    }
+    return code;
+}
+
+std::string ShaderCompiler::version() {
+    // The last number changes when our own numbering or options do.
+    return fmt::format("glslang {}.{}.{} crevice 1", GLSLANG_VERSION_MAJOR, GLSLANG_VERSION_MINOR,
+                       GLSLANG_VERSION_PATCH);
+}
+
+}  // namespace crevice

@@ -1,0 +1,36 @@
+// From an effect's pass and macro values to the texts of its stages: flatten, check defines, add head and entry.
+#pragma once
+
+#include <vector>
+
+#include "effect/Defines.h"
+#include "effect/EffectLibrary.h"
+#include "effect/ShaderCompiler.h"
+
+namespace crevice {
+
+/// A program reference "name:entry" taken apart.
+struct ProgramReference {
+    std::string program, entry;
+};
+ProgramReference parseProgram(const std::string& reference);
+
+/// The flattened stages of a pass, vertex before fragment.
+struct FlatPass {
+    std::vector<ShaderStageBits> stages;
+    std::vector<FlatSource> sources;
+    std::vector<const FlatSource*> pointers() const;
+};
+FlatPass flattenPass(const IncludeSources& sources, const EffectPass& pass, Problems& problems);
+
+/// The texts handed to the compiler. The pass' own embedded macros join `values`; a request that contradicts them is an
+/// error, as is a macro that no pass of the effect knows. `knownElsewhere` lists the macros of the effect's other
+/// passes.
+std::vector<StageSource> makeStageSources(FlatPass flat, const EffectPass& pass, const VariantRequest& request,
+                                          const std::vector<std::string>& knownElsewhere, Problems& problems);
+
+/// Reports properties whose target no text of the pass mentions, in any branch.
+void checkPropertyTargets(const std::string& effect, const EffectPass& pass, const std::vector<StageSource>& sources,
+                          Problems& problems);
+
+}  // namespace crevice
