@@ -1,5 +1,4 @@
-// Order, attachments, states and transitions of a frame, computed from declarations alone: no Vulkan, exhaustively
-// testable.
+// Order, attachments, states and transitions of a frame, computed from declarations alone, without Vulkan.
 #pragma once
 
 #include <cstdint>
@@ -42,9 +41,9 @@ struct TargetRead {
     std::string target;
     bool storage = false;   ///< Read by imageLoad instead of a sampler.
     std::uint32_t mip = 0;  ///< A level above 0 is read alone ("name@2"); 0 means every level unless `oneMip`.
-    bool oneMip = false;    ///< Only level `mip` is read: what tells "name@0" from "name".
     std::string shaderName;
-    SourceLoc where;  ///< The line in the effect that samples it.
+    SourceLoc where;      ///< The line in the effect that samples it.
+    bool oneMip = false;  ///< Only level `mip` is read: what tells "name@0" from "name".
 };
 
 /// What one stage said in declare(), plus the reads found in its shaders.
