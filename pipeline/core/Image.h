@@ -29,9 +29,10 @@ struct Image {
 };
 
 /// How raw values become 8 bits in a PNG: clamped to [0,1]; signed ones as x/2+1/2; depth divided by `far`.
+/// Alpha is only clamped. Rounding is half up: floor(x * 255 + 1/2); not-a-number becomes 0.
 enum class PngMapping { Clamp, Signed, DepthByFar };
 
-/// 8-bit image of the same channel count (3 when an RGBA image's alpha is 1 everywhere, if `dropOpaqueAlpha`).
+/// 8-bit image of the same channel count (R8, RG8 or RGBA8; three channels become RGBA8). `far` must be positive.
 Image toEightBit(const Image& image, PngMapping mapping, float far = 1.0f);
 
 /// PNG bytes of an R8, RG8 (as RGB, blue 0), RGBA8 image. Fast: level 1. Opaque RGBA is written as RGB.

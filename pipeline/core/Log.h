@@ -11,7 +11,7 @@ namespace crevice {
 
 enum class LogLevel { Error, Warning, Note, Verbose };
 
-/// Receives messages at or below a level of detail and hands them to a sink (default: stderr, `warning: …`).
+/// Receives messages at or below a level of detail and hands them to a sink (default: stderr), prefixed: `warning: …`.
 /// Thread-safe as long as the sink is.
 class Log {
 public:
@@ -28,7 +28,7 @@ public:
     void warning(std::string_view message) const { write(LogLevel::Warning, message); }
     void note(std::string_view message) const { write(LogLevel::Note, message); }
     void verbose(std::string_view message) const { write(LogLevel::Verbose, message); }
-    /// Warnings and notes that were collected while reading.
+    /// Warnings and notes that were collected while reading, with their places; errors are thrown instead.
     void write(const Problems& problems) const;
 
 private:

@@ -141,7 +141,8 @@ Value readTaggedYamlScalar(const std::string& tag, const std::string& text, cons
 Problem explainYamlSyntax(std::string_view text, const TextPlaces& places, std::size_t offset,
                           std::string_view reason) {
     // The parser sometimes stops at the line break after the mistake's line or at the end of the text.
-    std::size_t begin = std::min(offset, text.size());
+    const bool unknownPlace = offset == 0 && reason.starts_with("end of");
+    std::size_t begin = unknownPlace ? text.size() : std::min(offset, text.size());
     if (begin == text.size()) {
         while (begin > 0 && (text[begin - 1] == '\n' || text[begin - 1] == '\r' || text[begin - 1] == ' ')) --begin;
     }

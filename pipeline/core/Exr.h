@@ -1,0 +1,17 @@
+// Reading of EXR bytes, for readImage().
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string>
+
+#include "core/Image.h"
+
+namespace crevice {
+
+bool looksLikeExr(std::span<const std::byte> bytes);
+/// Scan lines or tiles, channels R, G, B, A or a single one as grey, to RGBA32F. `name` stands in messages. Throws
+/// Error.
+Image decodeExr(std::span<const std::byte> bytes, const std::string& name);
+
+}  // namespace crevice
