@@ -94,9 +94,8 @@ private:
         VkDescriptorBufferInfo buffer;
         VkDescriptorImageInfo image;
     };
-    void writeBuffer(std::uint32_t binding, const Buffer& buffer, std::uint64_t offset, std::uint64_t range,
-                     bool storage);
-    void writeImage(std::uint32_t binding, std::uint32_t element, VkDescriptorImageInfo info, bool storage);
+    void writeBuffer(std::uint32_t binding, const Buffer& buffer, std::uint64_t offset, std::uint64_t range);
+    void writeImage(std::uint32_t binding, std::uint32_t element, VkDescriptorImageInfo info);
     Slot& slot(std::uint32_t binding);
     void release();
 

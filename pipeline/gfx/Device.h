@@ -2,10 +2,8 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <memory>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "core/Log.h"
@@ -14,6 +12,8 @@
 #include "gfx/Vk.h"
 
 namespace crevice {
+
+class Messenger;
 
 struct DeviceOptions {
     const Log& log;         ///< Must outlive the device.
@@ -52,6 +52,7 @@ public:
     bool hasRobustImageAccess() const { return robustImageAccess_; }
     /// Nanoseconds per timestamp tick; 0 = the queue has no timestamps.
     double timestampPeriod() const { return timestampPeriod_; }
+    std::uint32_t timestampBits() const { return timestampBits_; }
 
     std::uint64_t heapBytes() const;       ///< The largest device-local heap.
     std::uint64_t allocatedBytes() const;  ///< In use by images and buffers.
@@ -83,7 +84,6 @@ public:
     void endLabel(VkCommandBuffer commands) const;
 
 private:
-    struct Messenger;
     void createInstance(const DeviceOptions& options);
     void pickPhysicalDevice(const std::string& wanted);
     void createDevice();
@@ -94,6 +94,7 @@ private:
     bool hasDebugUtils_ = false;
     bool robustImageAccess_ = false;
     double timestampPeriod_ = 0;
+    std::uint32_t timestampBits_ = 0;
     DeviceInfo info_;
     VkPhysicalDeviceLimits limits_{};
     VkPhysicalDeviceFeatures features_{};

@@ -16,7 +16,7 @@ public:
 
     std::uint32_t capacity() const { return capacity_; }
     bool isSupported() const { return period_ > 0; }
-    /// Times of slots 0 … count-1 in ns since an arbitrary start; all must have been written and waited for. Zeros when
+    /// Times of slots 0 … count-1 in ns since slot 0; all must have been written and waited for. Zeros when
     /// unsupported.
     std::vector<double> read(std::uint32_t count) const;
     VkQueryPool handle() const { return pool_.get(); }

@@ -20,6 +20,14 @@ const char* vkResultName(VkResult result);
         if (vkCallResult_ != VK_SUCCESS) ::crevice::throwVkError(vkCallResult_, #expr); \
     } while (false)
 
+/// A zeroed Vulkan struct of the given type.
+template <class Struct>
+Struct vkStruct(VkStructureType type) {
+    Struct result{};
+    result.sType = type;
+    return result;
+}
+
 /// Sole owner of a Vulkan handle; `destroy(owner, handle)` runs once. Move-only.
 template <class Handle>
 class Unique {

@@ -1,0 +1,208 @@
+// Fills Vulkan's pipeline structs from ours, one small function per state.
+#include "gfx/PipelineBuild.h"
+
+#include <array>
+
+#include <fmt/format.h>
+
+#include "core/Error.h"
+#include "gfx/Device.h"
+#include "gfx/Format.h"
+#include "gfx/Owned.h"
+#include "gfx/StateWords.h"
+
+namespace crevice {
+
+namespace {
+
+Unique<VkShaderModule> makeModule(Device& device, std::span<const std::uint32_t> words, const std::string& name) {
+    auto info = vkStruct<VkShaderModuleCreateInfo>(VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO);
+    info.codeSize = words.size_bytes();
+    info.pCode = words.data();
+    VkShaderModule module = VK_NULL_HANDLE;
+    VK_CALL(vkCreateShaderModule(device.handle(), &info, nullptr, &module));
+    device.setName(VK_OBJECT_TYPE_SHADER_MODULE, module, name);
+    return {module, device.handle(), [](void* owner, VkShaderModule dead) {
+                vkDestroyShaderModule(static_cast<VkDevice>(owner), dead, nullptr);
+            }};
+}
+
+VkPipelineShaderStageCreateInfo stageInfo(VkShaderStageFlagBits stage, VkShaderModule module) {
+    auto info = vkStruct<VkPipelineShaderStageCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO);
+    info.stage = stage;
+    info.module = module;
+    info.pName = "main";
+    return info;
+}
+
+VkFormat toVk(VertexFormat format) {
+    static constexpr std::array kFormats = {VK_FORMAT_R32_SFLOAT,       VK_FORMAT_R32G32_SFLOAT,
+                                            VK_FORMAT_R32G32B32_SFLOAT, VK_FORMAT_R32G32B32A32_SFLOAT,
+                                            VK_FORMAT_R8G8B8A8_UNORM,   VK_FORMAT_R32_UINT};
+    return kFormats.at(static_cast<std::size_t>(format));
+}
+
+/// Arrays that VkPipelineVertexInputStateCreateInfo points into.
+struct VertexInput {
+    std::vector<VkVertexInputBindingDescription> bindings;
+    std::vector<VkVertexInputAttributeDescription> attributes;
+
+    explicit VertexInput(const GraphicsPipelineDesc& desc) {
+        for (const VertexBinding& binding : desc.vertexBindings) {
+            bindings.push_back({binding.binding, binding.stride,
+                                binding.perInstance ? VK_VERTEX_INPUT_RATE_INSTANCE : VK_VERTEX_INPUT_RATE_VERTEX});
+        }
+        for (const VertexAttribute& attribute : desc.vertexAttributes) {
+            attributes.push_back({attribute.location, attribute.binding, toVk(attribute.format), attribute.offset});
+        }
+    }
+    VkPipelineVertexInputStateCreateInfo info() const {
+        auto info =
+            vkStruct<VkPipelineVertexInputStateCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO);
+        info.vertexBindingDescriptionCount = static_cast<std::uint32_t>(bindings.size());
+        info.pVertexBindingDescriptions = bindings.data();
+        info.vertexAttributeDescriptionCount = static_cast<std::uint32_t>(attributes.size());
+        info.pVertexAttributeDescriptions = attributes.data();
+        return info;
+    }
+};
+
+VkPipelineRasterizationStateCreateInfo rasterizationInfo(const RenderState& state) {
+    auto info =
+        vkStruct<VkPipelineRasterizationStateCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_STATE_CREATE_INFO);
+    info.polygonMode = crevice::toVk(state.polygonMode);
+    info.cullMode = crevice::toVk(state.cullMode);
+    info.frontFace = state.frontFaceCcw ? VK_FRONT_FACE_COUNTER_CLOCKWISE : VK_FRONT_FACE_CLOCKWISE;
+    info.depthBiasEnable = state.depthBias != 0 || state.depthBiasSlope != 0 ? VK_TRUE : VK_FALSE;
+    info.depthBiasConstantFactor = state.depthBias;
+    info.depthBiasSlopeFactor = state.depthBiasSlope;
+    info.lineWidth = 1;
+    return info;
+}
+
+VkPipelineDepthStencilStateCreateInfo depthInfo(const GraphicsPipelineDesc& desc) {
+    auto info =
+        vkStruct<VkPipelineDepthStencilStateCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_DEPTH_STENCIL_STATE_CREATE_INFO);
+    info.depthTestEnable = desc.depthFormat && desc.state.depthTest ? VK_TRUE : VK_FALSE;
+    info.depthWriteEnable = desc.depthFormat && desc.state.depthWrite ? VK_TRUE : VK_FALSE;
+    info.depthCompareOp = crevice::toVk(desc.state.depthFunc);
+    info.maxDepthBounds = 1;
+    return info;
+}
+
+std::vector<VkPipelineColorBlendAttachmentState> blendAttachments(const GraphicsPipelineDesc& desc) {
+    std::vector<VkPipelineColorBlendAttachmentState> attachments;
+    for (std::size_t i = 0; i < desc.colorFormats.size(); ++i) {
+        const BlendTarget target = i < desc.state.blendTargets.size() ? desc.state.blendTargets[i] : BlendTarget{};
+        VkPipelineColorBlendAttachmentState attachment{};
+        attachment.blendEnable = target.blend ? VK_TRUE : VK_FALSE;
+        attachment.srcColorBlendFactor = crevice::toVk(target.src);
+        attachment.dstColorBlendFactor = crevice::toVk(target.dst);
+        attachment.colorBlendOp = crevice::toVk(target.op);
+        attachment.srcAlphaBlendFactor = crevice::toVk(target.srcAlpha);
+        attachment.dstAlphaBlendFactor = crevice::toVk(target.dstAlpha);
+        attachment.alphaBlendOp = crevice::toVk(target.alphaOp);
+        attachment.colorWriteMask = target.colorMask;
+        attachments.push_back(attachment);
+    }
+    return attachments;
+}
+
+void checkStates(const Device& device, const GraphicsPipelineDesc& desc) {
+    if (desc.state.polygonMode != PolygonMode::Fill && device.features().fillModeNonSolid == VK_FALSE) {
+        throw Error(fmt::format("device '{}' cannot draw lines or points of polygons, which pipeline '{}' asks for",
+                                device.deviceName(), desc.name),
+                    "use polygonMode fill");
+    }
+    for (std::size_t i = 0; i < desc.colorFormats.size() && i < desc.state.blendTargets.size(); ++i) {
+        if (!desc.state.blendTargets[i].blend || supportsBlend(device, desc.colorFormats[i])) continue;
+        throw Error(fmt::format("device '{}' cannot blend into format '{}', which pipeline '{}' asks for",
+                                device.deviceName(), formatInfo(desc.colorFormats[i]).name, desc.name),
+                    "give the target another format, or switch blending off");
+    }
+}
+
+[[noreturn]] void throwRefused(const Device& device, const std::string& name, VkResult result) {
+    throw RenderError(
+        fmt::format("device '{}' refused pipeline '{}': {}", device.deviceName(), name, vkResultName(result)),
+        "run again with --validate to see why");
+}
+
+}  // namespace
+
+Unique<VkPipeline> buildGraphicsPipeline(Device& device, const GraphicsPipelineDesc& desc) {
+    checkStates(device, desc);
+    std::vector<Unique<VkShaderModule>> modules;
+    std::vector<VkPipelineShaderStageCreateInfo> stages;
+    modules.push_back(makeModule(device, desc.vertex, desc.name + " vertex"));
+    stages.push_back(stageInfo(VK_SHADER_STAGE_VERTEX_BIT, modules.back().get()));
+    if (!desc.fragment.empty()) {
+        modules.push_back(makeModule(device, desc.fragment, desc.name + " fragment"));
+        stages.push_back(stageInfo(VK_SHADER_STAGE_FRAGMENT_BIT, modules.back().get()));
+    }
+
+    std::vector<VkFormat> colorFormats;
+    for (const Format format : desc.colorFormats) colorFormats.push_back(crevice::toVk(format));
+    auto rendering = vkStruct<VkPipelineRenderingCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_RENDERING_CREATE_INFO);
+    rendering.colorAttachmentCount = static_cast<std::uint32_t>(colorFormats.size());
+    rendering.pColorAttachmentFormats = colorFormats.data();
+    rendering.depthAttachmentFormat = desc.depthFormat ? crevice::toVk(*desc.depthFormat) : VK_FORMAT_UNDEFINED;
+
+    const VertexInput input(desc);
+    const auto vertexInput = input.info();
+    auto assembly =
+        vkStruct<VkPipelineInputAssemblyStateCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO);
+    assembly.topology = crevice::toVk(desc.state.topology);
+    auto viewport = vkStruct<VkPipelineViewportStateCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_VIEWPORT_STATE_CREATE_INFO);
+    viewport.viewportCount = 1;
+    viewport.scissorCount = 1;
+    const auto rasterization = rasterizationInfo(desc.state);
+    auto samples =
+        vkStruct<VkPipelineMultisampleStateCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_MULTISAMPLE_STATE_CREATE_INFO);
+    samples.rasterizationSamples = VK_SAMPLE_COUNT_1_BIT;
+    const auto depth = depthInfo(desc);
+    const auto attachments = blendAttachments(desc);
+    auto blend =
+        vkStruct<VkPipelineColorBlendStateCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO);
+    blend.attachmentCount = static_cast<std::uint32_t>(attachments.size());
+    blend.pAttachments = attachments.data();
+    constexpr std::array kDynamic = {VK_DYNAMIC_STATE_VIEWPORT, VK_DYNAMIC_STATE_SCISSOR};
+    auto dynamic = vkStruct<VkPipelineDynamicStateCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_DYNAMIC_STATE_CREATE_INFO);
+    dynamic.dynamicStateCount = static_cast<std::uint32_t>(kDynamic.size());
+    dynamic.pDynamicStates = kDynamic.data();
+
+    auto info = vkStruct<VkGraphicsPipelineCreateInfo>(VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_CREATE_INFO);
+    info.pNext = &rendering;
+    info.stageCount = static_cast<std::uint32_t>(stages.size());
+    info.pStages = stages.data();
+    info.pVertexInputState = &vertexInput;
+    info.pInputAssemblyState = &assembly;
+    info.pViewportState = &viewport;
+    info.pRasterizationState = &rasterization;
+    info.pMultisampleState = &samples;
+    info.pDepthStencilState = &depth;
+    info.pColorBlendState = &blend;
+    info.pDynamicState = &dynamic;
+    info.layout = desc.layout->handle();
+    VkPipeline pipeline = VK_NULL_HANDLE;
+    const VkResult result =
+        vkCreateGraphicsPipelines(device.handle(), device.pipelineCache(), 1, &info, nullptr, &pipeline);
+    if (result != VK_SUCCESS) throwRefused(device, desc.name, result);
+    device.setName(VK_OBJECT_TYPE_PIPELINE, pipeline, desc.name);
+    return own<vkDestroyPipeline, ObjectKind::Pipeline>(device, pipeline);
+}
+
+Unique<VkPipeline> buildComputePipeline(Device& device, const ComputePipelineDesc& desc) {
+    const auto module = makeModule(device, desc.compute, desc.name + " compute");
+    auto info = vkStruct<VkComputePipelineCreateInfo>(VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO);
+    info.stage = stageInfo(VK_SHADER_STAGE_COMPUTE_BIT, module.get());
+    info.layout = desc.layout->handle();
+    VkPipeline pipeline = VK_NULL_HANDLE;
+    const VkResult result =
+        vkCreateComputePipelines(device.handle(), device.pipelineCache(), 1, &info, nullptr, &pipeline);
+    if (result != VK_SUCCESS) throwRefused(device, desc.name, result);
+    device.setName(VK_OBJECT_TYPE_PIPELINE, pipeline, desc.name);
+    return own<vkDestroyPipeline, ObjectKind::Pipeline>(device, pipeline);
+}
+
+}  // namespace crevice
