@@ -61,7 +61,7 @@ private:
         if (view_) {
             block.lightView = view_->view;
             block.lightViewProj = viewProj;
-            block.nearFar = {view_->near, view_->far, 0.0f, 1.0f};
+            block.nearFar = {view_->near, view_->far, 0.0f, 0.0f};
         }
         block.sizeBias = {size, static_cast<float>(pcf_), bias_};
         // World units of one texel times the normal bias: the lighting shifts its look-up by that along the normal.

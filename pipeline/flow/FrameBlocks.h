@@ -27,7 +27,7 @@ struct CameraBlock {
     glm::vec4 ambientGround{0};
     glm::vec4 fogColor{0};
     glm::vec4 fogBase{0};      ///< start, end, density
-    glm::vec4 fogAdd{0};
+    glm::vec4 fogAdd{0};       ///< w: 0 none, 1 linear, 2 exp, 3 exp²
 };
 static_assert(sizeof(CameraBlock) == 544);
 
@@ -49,13 +49,6 @@ struct SpotShadowBlock {
     glm::vec4 extra{0};
 };
 static_assert(sizeof(SpotShadowBlock) == 96);
-
-/// Mirrors `CCFog` in cc-fog.chunk.
-struct FogBlock {
-    glm::vec4 kind{0};  ///< x: 0 none, 1 linear, 2 exp, 3 exp²
-    glm::vec4 spare{0};
-};
-static_assert(sizeof(FogBlock) == 32);
 
 /// One element of `CCPunctualLights` in cc-lights.chunk.
 struct PunctualLight {

@@ -1,0 +1,92 @@
+// The library's front door: a device, a pipeline document, a scene → images. The program is a client of it without private powers.
+//
+//   crevice::Renderer renderer({});
+//   renderer.load({.nameOrPath = "ssao-deferred"});
+//   renderer.setScene(crevice::loadScene("helmet.gltf", {renderer.log()}));
+//   crevice::writeImage("helmet.png", renderer.render({.width = 1280, .height = 720}));
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/Files.h"
+#include "core/Image.h"
+#include "core/Log.h"
+#include "flow/Plugin.h"
+#include "flow/RenderPipeline.h"
+#include "flow/StageRegistry.h"
+#include "gfx/Device.h"
+#include "plan/PipelineAsset.h"
+#include "scene/SceneAsset.h"
+
+namespace crevice {
+
+struct RendererOptions {
+    std::string device{};         ///< Index or part of a name; empty = the best.
+    bool validate = false;        ///< Vulkan validation, synchronization included.
+    bool useCache = true;         ///< SPIR-V on disk.
+    bool defaultLight = true;     ///< A scene without lights gets a key light and ambient, with a note.
+    AssetRoots roots = AssetRoots::standard();
+    Log log{};
+};
+
+/// One picture to make.
+struct View {
+    std::uint32_t width = 1280, height = 720;
+    std::optional<Camera> camera{};               ///< Nothing = the scene's first, else one that frames the scene.
+    glm::vec4 background{0, 0, 0, 1};             ///< sRGB, straight alpha; shows where nothing was drawn.
+    std::uint32_t frameIndex = 0;
+    std::vector<std::string> keep{};              ///< Targets that target() can return afterwards.
+};
+
+class Renderer {
+public:
+    explicit Renderer(RendererOptions options);
+    ~Renderer();
+
+    /// Classes for documents to name; add yours before load().
+    StageRegistry& stages() { return registry_; }
+    void loadPlugin(const std::filesystem::path& path);
+
+    /// Reads a pipeline document; `run` is what the caller expects to draw. Throws Error.
+    void load(PipelineRequest request, const RunInfo& run = {});
+    /// Takes the scene over and uploads it. Throws Error.
+    void setScene(Scene scene);
+
+    /// Renders and waits; RGBA8, sRGB-encoded. Needs a pipeline and a scene.
+    Image render(const View& view);
+    /// Several cameras and sizes in one pipeline, one after the other.
+    std::vector<Image> render(std::span<const View> views);
+    /// A target that the last view kept, raw.
+    Image target(const std::string& name) const { return pipeline_->image(name); }
+
+    const Scene& scene() const { return scene_; }
+    /// The camera a view is rendered with: near and far filled in.
+    Camera cameraFor(const View& view) const;
+    /// In force for the scene: its own EV, or the automatic one.
+    float exposureEv() const;
+    const Log& log() const { return options_.log; }
+    Log& log() { return options_.log; }
+    const AssetRoots& roots() const { return options_.roots; }
+    Device& device() { return device_; }
+    EffectLibrary& effects() { return effects_; }
+    RenderPipeline& pipeline() { return *pipeline_; }
+
+private:
+    void prepare();
+
+    RendererOptions options_;
+    std::vector<Plugin> plugins_;  // before the registry: code outlives the objects made from it
+    StageRegistry registry_;
+    Device device_;
+    EffectLibrary effects_;
+    Scene scene_;
+    bool hasScene_ = false;
+    std::unique_ptr<RenderPipeline> pipeline_;
+};
+
+}  // namespace crevice

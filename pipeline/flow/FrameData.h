@@ -1,0 +1,27 @@
+// What a frame knows before any stage runs: camera, screen, lights, fog and exposure as the blocks of set 0.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "flow/FrameBlocks.h"
+#include "flow/FrameContext.h"
+#include "scene/Scene.h"
+
+namespace crevice {
+
+GlobalBlock globalBlock(const FrameView& view);
+CameraBlock cameraBlock(const FrameView& view, const Scene& scene);
+
+/// Bytes of the storage buffer CCPunctualLights: uvec4 count, then one PunctualLight each. All lights but the main one,
+/// in the scene's order; further directional lights have type 2.
+std::vector<std::byte> punctualLights(const Scene& scene);
+
+/// Factor from scene luminance to 1.0 for an exposure value at ISO 100: 1 / (1.2 · 2^EV)
+/// (S. Lagarde, C. de Rousiers: Moving Frostbite to PBR, 2014, section 5.1).
+float exposureFromEv(float ev);
+/// The EV that brings a white diffuse surface under the scene's lights to 0.8: from the light sources alone, so that it is the
+/// same for every camera and every run. See docs/scenes.md.
+float autoExposureEv(const Scene& scene);
+
+}  // namespace crevice

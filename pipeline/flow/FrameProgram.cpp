@@ -1,0 +1,149 @@
+// The steps from a document to a plan, in order; compiling is in ProgramCompile.cpp.
+#include "flow/FrameProgram.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "core/Params.h"
+#include "core/Text.h"
+#include "flow/FrameBlocks.h"
+#include "flow/ProgramCompile.h"
+#include "flow/RenderStage.h"
+#include "flow/StageRegistry.h"
+#include "flow/Wiring.h"
+#include "plan/PipelineAsset.h"
+
+namespace crevice {
+namespace {
+
+/// Runs a step and keeps what it throws, so that several mistakes are reported in one run.
+template <class Step>
+void collect(Problems& problems, Step&& step) {
+    try {
+        step();
+    } catch (const RenderError&) {
+        throw;
+    } catch (const Error& error) {
+        problems.add(error);
+    }
+}
+
+void readParams(StageProgram& program, Problems& problems) {
+    const StageDesc& desc = *program.desc;
+    const Value empty = Value::makeObject(desc.where);
+    ParamReader reader(desc.params.isNull() ? empty : desc.params, fmt::format("params of stage '{}'", desc.name), problems);
+    program.stage->params(reader);
+    reader.finish();
+}
+
+}  // namespace
+
+FrameProgram::FrameProgram(PipelineDesc desc, const StageRegistry& registry, EffectLibrary& library, const Log& log, RunInfo run)
+    : desc_(std::move(desc)), library_(library), log_(log) {
+    Problems problems;
+    makeStages(registry, run, problems);
+    problems.throwIfErrors();
+    nameGlobals();
+    ProgramCompiler compiler(desc_, library_, globals_);
+    for (StageProgram& stage : stages_) {
+        collect(problems, [&] { compiler.compileDraws(stage, problems); });
+    }
+    problems.throwIfErrors();
+    log_.write(problems);
+}
+
+FrameProgram::~FrameProgram() = default;
+
+void FrameProgram::makeStages(const StageRegistry& registry, const RunInfo& run, Problems& problems) {
+    checkPriorities(desc_, [&](const std::string& name) { return registry.priorityOf(name); }, problems);
+    for (const FlowDesc& flow : desc_.flows) {
+        for (const StageDesc& desc : flow.stages) {
+            StageProgram program;
+            program.flow = flow.name;
+            program.desc = &desc;
+            collect(problems, [&] {
+                program.stage = registry.get(desc.stageClass, desc.where).make();
+                readParams(program, problems);
+                StageIo io(program.declaration, desc, run);
+                program.stage->declare(io);
+                stages_.push_back(std::move(program));
+            });
+        }
+    }
+}
+
+void FrameProgram::nameGlobals() {
+    GlobalNames names;
+    for (const TargetDesc& target : desc_.targets) names.addTarget(target.name, target.binding, target.where);
+    for (const StageProgram& stage : stages_) {
+        for (const BlockDeclaration& block : stage.declaration.blocks) names.addBlock(block.name, block.size, {}, stage.desc->where);
+    }
+    for (const BlockPin& pin : desc_.blocks) {
+        if (pin.binding) names.pinBlock(pin.name, *pin.binding, pin.where);
+    }
+    globals_ = names.freeze();
+}
+
+void FrameProgram::prepare(const Scene* scene) {
+    Problems problems;
+    ProgramCompiler compiler(desc_, library_, globals_);
+    for (StageProgram& stage : stages_) {
+        stage.queues.clear();
+        for (const QueueDeclaration& queue : stage.declaration.queues) {
+            QueueProgram program{.declaration = queue, .surfaces = {}};
+            if (scene) collect(problems, [&] { compiler.compileQueue(stage, program, *scene, problems); });
+            stage.queues.push_back(std::move(program));
+        }
+    }
+    problems.throwIfErrors();
+    std::vector<StageUse> uses;
+    for (const StageProgram& stage : stages_) uses.push_back(useOf(stage, problems));
+    problems.throwIfErrors();
+    plan_ = planFrame(desc_, std::move(uses));
+}
+
+StageUse FrameProgram::useOf(const StageProgram& stage, Problems& problems) const {
+    const StageDesc& desc = *stage.desc;
+    StageUse use{.stage = desc.name, .flow = stage.flow, .enabled = desc.enabled, .compute = false, .writes = stage.declaration.writes,
+                 .reads = {}, .where = desc.where};
+    const auto addReads = [&](const EffectVariant& variant, const std::vector<Wire>& wires) {
+        for (TargetRead& read : findReads(desc_, variant, wires)) {
+            const bool known = std::any_of(use.reads.begin(), use.reads.end(), [&](const TargetRead& other) {
+                return other.target == read.target && other.mip == read.mip && other.storage == read.storage;
+            });
+            if (!known) use.reads.push_back(std::move(read));
+        }
+        const std::vector<BlendTarget>& targets = variant.pass->state.blendTargets;
+        for (std::size_t i = 0; i < use.writes.size(); ++i) {
+            if (use.writes[i].kind == WriteKind::Color && i < targets.size() && targets[i].blend) use.writes[i].blends = true;
+        }
+        // A draw whose depth test lets only what nothing covered pass keeps the rest of the picture.
+        use.compute = use.compute || !variant.compute.empty();
+    };
+    for (const DrawProgram& draw : stage.draws) {
+        if (draw.variant) addReads(*draw.variant, draw.wires);
+    }
+    for (const QueueProgram& queue : stage.queues) {
+        for (const SurfaceProgram& surface : queue.surfaces) {
+            if (surface.variant) addReads(*surface.variant, surface.wires);
+        }
+    }
+    for (const std::string& target : stage.declaration.reads) use.reads.push_back({.target = target, .shaderName = {}, .where = desc.where});
+    checkListedReads(desc, use, problems);
+    return use;
+}
+
+void FrameProgram::checkListedReads(const StageDesc& desc, const StageUse& use, Problems& problems) {
+    for (const ReadWire& listed : desc.reads) {
+        if (!listed.shaderName.empty() || !desc.enabled) continue;
+        const bool found = std::any_of(use.reads.begin(), use.reads.end(), [&](const TargetRead& r) { return r.target == listed.target; });
+        if (found) continue;
+        std::vector<std::string> names;
+        for (const TargetRead& read : use.reads) names.push_back(read.target);
+        problems.error(listed.where, fmt::format("stage '{}' lists '{}' in \"reads\", and its shaders do not read it", desc.name, listed.target),
+                       names.empty() ? "its shaders read no target: remove the entry" : "it reads: " + join(names));
+    }
+}
+
+}  // namespace crevice

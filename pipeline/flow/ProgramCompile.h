@@ -1,0 +1,31 @@
+// Compiles a stage's draws and a queue's surfaces: effect + macros + material → variants, values and wires.
+#pragma once
+
+#include "flow/FrameProgram.h"
+
+namespace crevice {
+
+class ProgramCompiler {
+public:
+    ProgramCompiler(const PipelineDesc& desc, EffectLibrary& library, const GlobalLayout& globals)
+        : desc_(desc), library_(library), globals_(globals) {}
+
+    void compileDraws(StageProgram& stage, Problems& problems);
+    /// Every material of the scene that the queue's phase and order take.
+    void compileQueue(const StageProgram& stage, QueueProgram& queue, const Scene& scene, Problems& problems);
+
+private:
+    struct PassChoice { std::size_t technique = 0, pass = 0; };
+
+    const EffectVariant& compile(const StageProgram& stage, const std::string& effect, PassChoice choice, const Defines& offered);
+    SurfaceProgram compileSurface(const StageProgram& stage, const QueueDeclaration& queue, const SceneMaterial& material,
+                                  bool hasTangents, Problems& problems);
+    bool choosePass(const StageProgram& stage, const QueueDeclaration& queue, AlphaMode mode, PassChoice& choice);
+    void checkBlocks(const StageProgram& stage, const EffectVariant& variant, Problems& problems) const;
+
+    const PipelineDesc& desc_;
+    EffectLibrary& library_;
+    const GlobalLayout& globals_;
+};
+
+}  // namespace crevice

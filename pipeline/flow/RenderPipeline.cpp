@@ -1,0 +1,227 @@
+// prepare: program → GPU objects. render: frame blocks, then each stage between its planned barriers.
+#include "flow/RenderPipeline.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cassert>
+
+#include "core/Text.h"
+#include "flow/FrameData.h"
+#include "flow/RenderStage.h"
+#include "gfx/Device.h"
+#include "gfx/Pipeline.h"
+
+namespace crevice {
+namespace {
+
+/// Share of the scene's bounding-box diagonal that `auto` lengths such as an AO radius take.
+constexpr float kAutoLength = 1.0f / 40.0f;
+
+class Setup final : public StageSetup {
+public:
+    Setup(StageExecution& execution, const SceneGpu& scene, glm::uvec2 extent)
+        : execution_(execution), scene_(scene), extent_(extent) {}
+    const Scene& scene() const override { return scene_.scene(); }
+    const Aabb& sceneBounds() const override { return scene_.bounds(); }
+    glm::uvec2 extent() const override { return extent_; }
+    void setProperty(DrawId draw, std::string_view name, const Value& value) override { execution_.setProperty(draw, name, value); }
+
+private:
+    StageExecution& execution_;
+    const SceneGpu& scene_;
+    glm::uvec2 extent_;
+};
+
+}  // namespace
+
+/// The contents of one target, copied at the end of a frame.
+struct RenderPipeline::Kept {
+    std::string target;
+    Readback readback;
+    bool current = false;  ///< Copied by the last frame.
+};
+
+RenderPipeline::RenderPipeline(Device& device, EffectLibrary& library, const StageRegistry& registry, const Log& log, PipelineDesc desc,
+                               RunInfo run)
+    : device_(device),
+      log_(log),
+      program_(std::move(desc), registry, library, log, run),
+      samplers_(device),
+      pool_(device),
+      layouts_(device),
+      pipelines_(device),
+      defaults_(device),
+      globals_(device, pool_, samplers_, program_.globals(), defaults_),
+      locals_(device, pool_),
+      instances_(device),
+      commands_(device, "frame") {}
+
+RenderPipeline::~RenderPipeline() = default;
+
+void RenderPipeline::prepare(const Scene& scene) {
+    executions_.clear();
+    targets_.reset();
+    scene_.reset();
+    program_.prepare(&scene);
+    log_.write(program_.plan().notes);
+    scene_ = std::make_unique<SceneGpu>(device_, samplers_, scene);
+    const std::vector<std::byte> lights = punctualLights(scene);
+    lights_ = Buffer(device_, {.size = lights.size(), .usage = BufferUsage::Storage, .name = "punctual lights"}, lights);
+    globals_.writeBuffer("CCPunctualLights", lights_);
+    globals_.update();
+    targets_ = std::make_unique<TargetPool>(device_, program_.desc(), program_.plan());
+    context_ = std::make_unique<ExecutionContext>(ExecutionContext{{device_, pool_, samplers_, defaults_}, layouts_, pipelines_, globals_,
+                                                                   locals_, instances_, commands_, *targets_});
+    for (const PlannedStage& planned : program_.plan().stages) {
+        executions_.push_back(std::make_unique<StageExecution>(*context_, program_.stages()[planned.use], planned, scene_.get()));
+    }
+    timestamps_ = std::make_unique<Timestamps>(device_, static_cast<std::uint32_t>(executions_.size() + 2));
+}
+
+void RenderPipeline::activate(glm::uvec2 extent) {
+    if (extent == targets_->extent()) return;
+    // Set 0 must let go of the old views before they are destroyed: some drivers read them although no shader does.
+    for (const TargetDesc& target : program_.desc().targets) {
+        if (target.isGlobal() && targets_->extent().x > 0) globals_.writeImage(target.name, defaults_.white, target.sampler);
+    }
+    globals_.update();
+    targets_->resize(extent);
+    for (const TargetDesc& target : program_.desc().targets) {
+        if (target.isGlobal()) globals_.writeImage(target.name, targets_->texture(target.name), target.sampler);
+    }
+    globals_.update();
+    const float autoLength = kAutoLength * scene_->bounds().diagonal();
+    for (const auto& execution : executions_) {
+        execution->writeTargets();
+        execution->setAutoLength(autoLength);
+        Setup setup(*execution, *scene_, extent);
+        execution->stage().activate(setup);
+    }
+    log_.verbose(fmt::format("{}x{}: targets hold {:.1f} MiB; auto radius {:.4g} world units (1/40 of the scene's diagonal)", extent.x,
+                             extent.y, static_cast<double>(targets_->bytes()) / (1 << 20), autoLength));
+}
+
+void RenderPipeline::render(const FrameView& view, std::span<const std::string> keep) {
+    assert(scene_ && "prepare() comes first");
+    activate(view.extent);
+    commands_.begin();
+    barriers_.clear();
+    commands_.recordBarriersTo(&barriers_);
+    commands_.resetTimestamps(*timestamps_);
+    instances_.beginFrame();
+    locals_.beginFrame();
+    uploadFrameBlocks(view);
+    std::uint32_t slot = 0;
+    commands_.writeTimestamp(*timestamps_, slot++);
+    for (const auto& execution : executions_) {
+        recordStage(*execution, view);
+        commands_.writeTimestamp(*timestamps_, slot++);
+    }
+    recordTransitions(program_.plan().atEnd);
+    commands_.recordBarriersTo(nullptr);
+    for (const auto& kept : kept_) kept->current = false;
+    recordReadback(program_.desc().output);
+    for (const std::string& target : keep) recordReadback(target);
+    commands_.writeTimestamp(*timestamps_, slot++);
+    commands_.memoryBarrier();
+    commands_.submitAndWait();
+}
+
+void RenderPipeline::uploadFrameBlocks(const FrameView& view) {
+    globals_.beginFrame();
+    const GlobalBlock global = globalBlock(view);
+    const CameraBlock camera = cameraBlock(view, scene_->scene());
+    globals_.upload("CCGlobal", std::as_bytes(std::span(&global, 1)));
+    globals_.upload("CCCamera", std::as_bytes(std::span(&camera, 1)));
+    globals_.save();
+}
+
+void RenderPipeline::recordTransitions(const std::vector<Transition>& transitions) {
+    std::vector<TextureBarrier> barriers;
+    for (const Transition& transition : transitions) {
+        const bool all = transition.mip == kAllMips;
+        barriers.push_back({.texture = &targets_->texture(transition.target),
+                            .from = textureState(transition.from),
+                            .to = textureState(transition.to),
+                            .firstMip = all ? 0 : transition.mip,
+                            .mipCount = all ? 0u : 1u});
+    }
+    if (!barriers.empty()) commands_.barriers(barriers);
+}
+
+void RenderPipeline::beginStage(const StageExecution& execution) {
+    RenderingDesc rendering;
+    for (const PlannedWrite& planned : execution.planned().writes) {
+        const TargetWrite& write = planned.write;
+        const GpuTexture& texture = targets_->texture(write.target);
+        const glm::vec4 clear = targets_->desc(write.target).clear;
+        const LoadOp load = planned.clears ? LoadOp::Clear : LoadOp::Load;
+        if (write.kind == WriteKind::Color) {
+            rendering.colors.push_back({.texture = &texture, .load = load, .clear = clear, .mip = write.mip});
+        } else {
+            rendering.depth = {.texture = &texture, .load = load, .clear = clear.x, .readOnly = write.kind == WriteKind::DepthTest, .mip = write.mip};
+        }
+    }
+    commands_.beginRendering(rendering);
+}
+
+void RenderPipeline::recordStage(StageExecution& execution, const FrameView& view) {
+    const StageUse& use = program_.plan().uses[execution.planned().use];
+    commands_.beginLabel(use.flow + " / " + use.stage);
+    recordTransitions(execution.planned().before);
+    globals_.restore();
+    if (!use.compute) beginStage(execution);
+    FrameContext frame(execution, view, scene_->scene());
+    execution.stage().render(frame);
+    if (!use.compute) commands_.endRendering();
+    commands_.endLabel();
+}
+
+void RenderPipeline::recordReadback(std::string_view target) {
+    auto found = std::find_if(kept_.begin(), kept_.end(), [&](const auto& kept) { return kept->target == target; });
+    if (found == kept_.end()) {
+        kept_.push_back(std::make_unique<Kept>(Kept{std::string(target), Readback(device_)}));
+        found = kept_.end() - 1;
+    }
+    if ((*found)->current) return;
+    const std::vector<TargetLife>& lives = program_.plan().lives;
+    const auto life = std::find_if(lives.begin(), lives.end(), [&](const TargetLife& l) { return l.target == target; });
+    if (life == lives.end()) {
+        std::vector<std::string> names;
+        for (const TargetLife& l : lives) names.push_back(l.target);
+        throw Error(fmt::format("pipeline '{}' has no target '{}'", program_.desc().name, target), didYouMean(target, names, "targets"));
+    }
+    const GpuTexture& texture = targets_->texture(target);
+    const TextureState state = textureState(life->atEnd);
+    const bool moves = state != TextureState::TransferSource;
+    if (moves) commands_.barrier(texture, state, TextureState::TransferSource);
+    (*found)->readback.record(commands_, texture);
+    if (moves && life->neverWritten) commands_.barrier(texture, TextureState::TransferSource, TextureState::Sampled);
+    (*found)->current = true;
+}
+
+Image RenderPipeline::image(std::string_view target) const {
+    for (const auto& kept : kept_) {
+        if (kept->target == target && kept->current) return kept->readback.image();
+    }
+    throw Error(fmt::format("target '{}' was not kept by the last frame", target), "name it in render()'s keep");
+}
+
+std::vector<StageTime> RenderPipeline::stageTimes() const {
+    const std::vector<double> times = timestamps_->read(static_cast<std::uint32_t>(executions_.size() + 2));
+    std::vector<StageTime> result;
+    for (std::size_t i = 0; i < executions_.size(); ++i) {
+        const StageUse& use = program_.plan().uses[executions_[i]->planned().use];
+        result.push_back({use.flow, use.stage, (times[i + 1] - times[i]) * 1e-6});
+    }
+    result.push_back({"", "readback", (times[executions_.size() + 1] - times[executions_.size()]) * 1e-6});
+    return result;
+}
+
+double RenderPipeline::frameMilliseconds() const {
+    const std::vector<double> times = timestamps_->read(static_cast<std::uint32_t>(executions_.size() + 2));
+    return (times.back() - times.front()) * 1e-6;
+}
+
+}  // namespace crevice

@@ -1,0 +1,81 @@
+// A pipeline document that runs: owns its targets, set 0 and stages, and records frames exactly as planned.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/Image.h"
+#include "flow/FrameProgram.h"
+#include "flow/StageExecution.h"
+#include "gfx/Readback.h"
+
+namespace crevice {
+
+/// GPU time of one stage in the last frame.
+struct StageTime {
+    std::string flow, stage;
+    double milliseconds = 0;
+};
+
+class RenderPipeline {
+public:
+    /// Throws Error with everything wrong in the document, its effects and materials.
+    RenderPipeline(Device& device, EffectLibrary& library, const StageRegistry& registry, const Log& log, PipelineDesc desc, RunInfo run);
+    ~RenderPipeline();
+
+    /// Uploads the scene, compiles what its materials need and plans the frame. The scene must outlive its use here, unchanged.
+    void prepare(const Scene& scene);
+
+    /// Renders one frame and waits. Targets are made anew only when the extent differs from the last frame's.
+    /// `keep`: targets whose contents image() can return afterwards, besides the output.
+    void render(const FrameView& view, std::span<const std::string> keep = {});
+
+    /// A target as the last frame left it: the output, or one that was kept.
+    Image image(std::string_view target) const;
+    Image output() const { return image(program_.desc().output); }
+
+    const FrameProgram& program() const { return program_; }
+    const SceneGpu* scene() const { return scene_.get(); }
+    std::uint64_t targetBytes() const { return targets_ ? targets_->bytes() : 0; }
+    /// Per stage, in order; their sum against frameMilliseconds() shows what transitions and read-back cost.
+    std::vector<StageTime> stageTimes() const;
+    double frameMilliseconds() const;
+    /// Barriers of targets in the last frame, for comparison with the plan.
+    const std::vector<RecordedBarrier>& recordedBarriers() const { return barriers_; }
+
+private:
+    struct Kept;
+    void activate(glm::uvec2 extent);
+    void uploadFrameBlocks(const FrameView& view);
+    void recordStage(StageExecution& execution, const FrameView& view);
+    void recordTransitions(const std::vector<Transition>& transitions);
+    void beginStage(const StageExecution& execution);
+    void recordReadback(std::string_view target);
+
+    Device& device_;
+    const Log& log_;
+    FrameProgram program_;
+    SamplerCache samplers_;
+    DescriptorPool pool_;
+    PipelineLayoutCache layouts_;
+    PipelineCache pipelines_;
+    DefaultTextures defaults_;
+    GlobalSet globals_;
+    LocalSet locals_;
+    InstanceStream instances_;
+    Commands commands_;
+    std::unique_ptr<Timestamps> timestamps_;
+    std::unique_ptr<SceneGpu> scene_;
+    Buffer lights_;
+    std::unique_ptr<TargetPool> targets_;
+    std::unique_ptr<ExecutionContext> context_;
+    std::vector<std::unique_ptr<StageExecution>> executions_;
+    std::vector<std::unique_ptr<Kept>> kept_;
+    std::vector<RecordedBarrier> barriers_;
+};
+
+}  // namespace crevice

@@ -1,0 +1,186 @@
+// Pipelines are made once per stage; a draw is then three binds and a call.
+#include "flow/StageExecution.h"
+
+#include <fmt/format.h>
+
+#include <cassert>
+
+#include "flow/RenderStage.h"
+#include "flow/VertexInput.h"
+#include "gfx/Device.h"
+#include "gfx/Pipeline.h"
+
+namespace crevice {
+namespace {
+
+bool usesSet(const ShaderInfo& info, std::uint32_t set) {
+    for (const ShaderResource& resource : info.resources) {
+        if (resource.slot.set == set) return true;
+    }
+    return false;
+}
+
+std::uint32_t groupCount(std::uint32_t pixels, std::uint32_t local) { return (pixels + local - 1) / local; }
+
+}  // namespace
+
+StageExecution::StageExecution(const ExecutionContext& context, StageProgram& program, const PlannedStage& planned,
+                               const SceneGpu* scene)
+    : context_(context), program_(program), planned_(planned), scene_(scene) {
+    for (const PlannedWrite& write : planned.writes) {
+        const Format format = context.targets.format(write.write.target);
+        if (write.write.kind == WriteKind::Color) colorFormats_.push_back(format);
+        if (write.write.kind == WriteKind::DepthTest || write.write.kind == WriteKind::DepthWrite) depthFormat_ = format;
+        if (write.write.kind == WriteKind::DepthTest) depthReadOnly_.push_back(write.write.target);
+    }
+    for (const DrawProgram& draw : program.draws) draws_.push_back(makeShader(*draw.variant, *draw.material, false, false));
+    for (const QueueProgram& queue : program.queues) {
+        std::vector<ShaderGpu>& shaders = queues_.emplace_back();
+        for (const SurfaceProgram& surface : queue.surfaces) {
+            if (surface.variant) {
+                shaders.push_back(makeShader(*surface.variant, *surface.material, true, surface.doubleSided));
+                shaders.back().binding->writeSceneTextures(surface.textures, *scene);
+            } else {
+                shaders.emplace_back();
+            }
+        }
+    }
+}
+
+StageExecution::ShaderGpu StageExecution::makeShader(const EffectVariant& variant, const Material& material, bool surface, bool doubleSided) {
+    ShaderGpu shader;
+    shader.binding.emplace(context_.bindings, variant, material);
+    shader.usesLocal = usesSet(variant.info, 2);
+    std::vector<const SetLayout*> sets{&context_.globals.setLayout(), &shader.binding->setLayout()};
+    if (shader.usesLocal) sets.push_back(&context_.locals.setLayout());
+    const PipelineLayout& layout = context_.layouts.get(sets);
+    if (!variant.compute.empty()) {
+        shader.pipeline = &context_.pipelines.get(ComputePipelineDesc{.compute = variant.compute, .layout = &layout, .name = variant.name});
+        return shader;
+    }
+    RenderState state = variant.pass->state;
+    if (doubleSided) state.cullMode = CullMode::None;
+    shader.pipeline = &makePipeline(variant, layout, state);
+    if (surface) {
+        state.frontFaceCcw = !state.frontFaceCcw;
+        shader.flipped = &makePipeline(variant, layout, state);
+    }
+    return shader;
+}
+
+const Pipeline& StageExecution::makePipeline(const EffectVariant& variant, const PipelineLayout& layout, const RenderState& state) {
+    const VertexInput input = vertexInput(variant);
+    return context_.pipelines.get(GraphicsPipelineDesc{.vertex = variant.vertex,
+                                                       .fragment = variant.fragment,
+                                                       .state = state,
+                                                       .vertexBindings = input.bindings,
+                                                       .vertexAttributes = input.attributes,
+                                                       .colorFormats = colorFormats_,
+                                                       .depthFormat = depthFormat_,
+                                                       .layout = &layout,
+                                                       .name = variant.name});
+}
+
+void StageExecution::writeShaderTargets(ShaderGpu& shader, const std::vector<Wire>& wires) {
+    shader.binding->writeTextures(context_.bindings, wires, context_.targets, depthReadOnly_);
+}
+
+void StageExecution::writeTargets() {
+    for (std::size_t i = 0; i < draws_.size(); ++i) {
+        writeShaderTargets(draws_[i], program_.draws[i].wires);
+        draws_[i].binding->update();
+    }
+    for (std::size_t q = 0; q < queues_.size(); ++q) {
+        for (std::size_t s = 0; s < queues_[q].size(); ++s) {
+            const SurfaceProgram& surface = program_.queues[q].surfaces[s];
+            if (!surface.variant) continue;
+            writeShaderTargets(queues_[q][s], surface.wires);
+            queues_[q][s].binding->writeSceneTextures(surface.textures, *scene_);
+            queues_[q][s].binding->update();
+        }
+    }
+    extent_ = context_.targets.extent();
+    if (planned_.writes.empty()) return;
+    const TargetWrite& first = planned_.writes.front().write;
+    const GpuTexture& texture = context_.targets.texture(first.target);
+    extent_ = {texture.width(first.mip), texture.height(first.mip)};
+}
+
+void StageExecution::setProperty(DrawId draw, std::string_view name, const Value& value) {
+    const Value& document = program_.desc->material;
+    if (document.isObject() && document.find(name)) return;
+    DrawProgram& program = program_.draws[draw.index];
+    Value values = Value::makeObject();
+    values.set(std::string(name), value);
+    Problems problems;
+    program.material->apply(values, problems);
+    problems.throwIfErrors();
+    draws_[draw.index].binding->writeBlocks(*program.material);
+}
+
+void StageExecution::setAutoLength(float length) {
+    for (std::size_t i = 0; i < draws_.size(); ++i) {
+        Material& material = *program_.draws[i].material;
+        for (const std::string& name : program_.draws[i].autoProperties) material.set(name, length);
+        draws_[i].binding->writeBlocks(material);
+    }
+}
+
+void StageExecution::upload(BlockId block, std::span<const std::byte> bytes) {
+    context_.globals.upload(program_.declaration.blocks[block.index].name, bytes);
+}
+
+void StageExecution::bindShader(const ShaderGpu& shader, bool flipped) {
+    context_.commands.bindPipeline(flipped ? *shader.flipped : *shader.pipeline);
+    context_.globals.bind(context_.commands);
+    shader.binding->bind(context_.commands);
+}
+
+void StageExecution::draw(DrawId draw) {
+    bindShader(draws_[draw.index], false);
+    if (draws_[draw.index].usesLocal) context_.locals.bind(context_.commands, glm::mat4(1));
+    context_.commands.draw(3);
+}
+
+void StageExecution::dispatch(DrawId draw, Groups groups) {
+    bindShader(draws_[draw.index], false);
+    context_.commands.dispatch(groups.x, groups.y, groups.z);
+}
+
+Groups StageExecution::groupsFor(DrawId draw) const {
+    const std::uint32_t* local = program_.draws[draw.index].variant->info.localSize;
+    return {groupCount(extent_.x, local[0]), groupCount(extent_.y, local[1]), 1};
+}
+
+void StageExecution::drawQueue(QueueId queue, const glm::mat4& view, const glm::mat4& viewProjection) {
+    if (!scene_ || scene_->scene().instances.empty()) return;
+    const QueueProgram& program = program_.queues[queue.index];
+    const bool blended = program.declaration.queue.sort == QueueSort::BackToFront;
+    const DrawList list = buildDrawList(scene_->scene(), scene_->instanceBounds(), {.view = view, .viewProjection = viewProjection},
+                                        blended ? DrawFilter::Blend : DrawFilter::Opaque,
+                                        blended ? DrawOrder::BackToFront : DrawOrder::FrontToBack);
+    scene_->bindMeshes(context_.commands);
+    for (const DrawBatch& batch : list.batches) {
+        const bool tangents = scene_->scene().meshes[std::size_t(batch.mesh)].hasTangents;
+        const ShaderGpu& shader = queues_[queue.index][surfaceIndex(batch.material, tangents)];
+        if (!shader.pipeline) continue;
+        bindShader(shader, batch.flipped);
+        drawBatch(shader, batch, std::span(list.instances).subspan(batch.firstInstance, batch.instanceCount));
+    }
+}
+
+void StageExecution::drawBatch(const ShaderGpu& shader, const DrawBatch& batch, std::span<const std::uint32_t> instances) {
+    const SceneGpu::MeshRange& mesh = scene_->mesh(batch.mesh);
+    const InstanceStream::Slice rows = context_.instances.append(scene_->scene(), instances);
+    context_.commands.bindVertexBuffer(1, *rows.buffer, rows.offset);
+    if (!shader.usesLocal) {
+        context_.commands.drawIndexed(mesh.indexCount, batch.instanceCount, mesh.firstIndex, mesh.vertexOffset);
+        return;
+    }
+    for (std::uint32_t i = 0; i < batch.instanceCount; ++i) {
+        context_.locals.bind(context_.commands, scene_->scene().instances[instances[i]].world);
+        context_.commands.drawIndexed(mesh.indexCount, 1, mesh.firstIndex, mesh.vertexOffset, i);
+    }
+}
+
+}  // namespace crevice

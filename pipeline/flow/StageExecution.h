@@ -1,0 +1,84 @@
+// The GPU side of one stage: pipelines and bindings of its draws and queues, made in activate(), used while it renders.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "flow/FrameContext.h"
+#include "flow/FrameProgram.h"
+#include "flow/LocalSet.h"
+#include "flow/ShaderBinding.h"
+
+namespace crevice {
+
+class PipelineLayoutCache;
+class PipelineCache;
+
+/// What all stages of a pipeline share; outlives them.
+struct ExecutionContext {
+    BindingContext bindings;
+    PipelineLayoutCache& layouts;
+    PipelineCache& pipelines;
+    GlobalSet& globals;
+    LocalSet& locals;
+    InstanceStream& instances;
+    Commands& commands;
+    const TargetPool& targets;
+};
+
+class StageExecution {
+public:
+    /// Makes layouts, bindings and pipelines. `scene` is null when there is none.
+    StageExecution(const ExecutionContext& context, StageProgram& program, const PlannedStage& planned,
+                   const SceneGpu* scene);
+
+    /// Targets were made (anew): rewrites what points to them.
+    void writeTargets();
+    /// A property of a draw's material, unless the document gives it.
+    void setProperty(DrawId draw, std::string_view name, const Value& value);
+    /// Supplies every property left at `auto`: a length in world units.
+    void setAutoLength(float length);
+
+    /// Pixels of what the stage writes; the frame's when it writes nothing.
+    glm::uvec2 extent() const { return extent_; }
+    const PlannedStage& planned() const { return planned_; }
+    RenderStage& stage() const { return *program_.stage; }
+    const StageProgram& program() const { return program_; }
+
+    // What FrameContext hands on.
+    void upload(BlockId block, std::span<const std::byte> bytes);
+    void draw(DrawId draw);
+    void drawQueue(QueueId queue, const glm::mat4& view, const glm::mat4& viewProjection);
+    void dispatch(DrawId draw, Groups groups);
+    Groups groupsFor(DrawId draw) const;
+    Commands& commands() { return context_.commands; }
+    const SceneGpu* scene() const { return scene_; }
+
+private:
+    struct ShaderGpu {
+        std::optional<ShaderBinding> binding;
+        const Pipeline* pipeline = nullptr;
+        const Pipeline* flipped = nullptr;  ///< Surfaces: for instances that mirror.
+        bool usesLocal = false;
+    };
+    ShaderGpu makeShader(const EffectVariant& variant, const Material& material, bool surface, bool doubleSided);
+    const Pipeline& makePipeline(const EffectVariant& variant, const PipelineLayout& layout, const RenderState& state);
+    void writeShaderTargets(ShaderGpu& shader, const std::vector<Wire>& wires);
+    void bindShader(const ShaderGpu& shader, bool flipped);
+    void drawBatch(const ShaderGpu& shader, const DrawBatch& batch, std::span<const std::uint32_t> instances);
+
+    const ExecutionContext& context_;
+    StageProgram& program_;
+    const PlannedStage& planned_;
+    const SceneGpu* scene_;
+    std::vector<std::string> depthReadOnly_;
+    std::vector<Format> colorFormats_;
+    std::optional<Format> depthFormat_;
+    std::vector<ShaderGpu> draws_;
+    std::vector<std::vector<ShaderGpu>> queues_;  ///< [queue][surfaceIndex]
+    glm::uvec2 extent_{0};
+};
+
+}  // namespace crevice

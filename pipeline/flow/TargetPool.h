@@ -1,0 +1,48 @@
+// The document's targets as textures at one frame size. Stages never see it: they speak names.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <glm/glm.hpp>
+
+#include "gfx/Commands.h"
+#include "plan/FramePlan.h"
+
+namespace crevice {
+
+class TargetPool {
+public:
+    /// Makes nothing yet: resize() does.
+    TargetPool(Device& device, const PipelineDesc& desc, const FramePlan& plan);
+
+    /// Throws Error with the sum beforehand when the targets do not fit the device's heap or limits. The GPU must be idle.
+    void resize(glm::uvec2 extent);
+    glm::uvec2 extent() const { return extent_; }
+
+    const GpuTexture& texture(std::string_view target) const;
+    const TargetDesc& desc(std::string_view target) const;
+    Format format(std::string_view target) const { return desc(target).format; }
+    /// Bytes that the targets hold.
+    std::uint64_t bytes() const;
+
+private:
+    void checkFits(glm::uvec2 extent) const;
+    GpuTexture makeTexture(const TargetDesc& target, const TargetLife& life, glm::uvec2 extent) const;
+    void clearUnwritten();
+
+    Device& device_;
+    const PipelineDesc& desc_;
+    const FramePlan& plan_;
+    glm::uvec2 extent_{0};
+    std::map<std::string, GpuTexture, std::less<>> textures_;
+};
+
+/// The plan's states in the words of gfx: the two enums have one order.
+inline TextureState textureState(TargetState state) { return static_cast<TextureState>(state); }
+static_assert(static_cast<int>(TargetState::TransferDest) == static_cast<int>(TextureState::TransferDest));
+
+}  // namespace crevice
