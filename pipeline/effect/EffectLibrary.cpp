@@ -137,7 +137,7 @@ std::vector<StageSource> EffectLibrary::State::stagesOf(const EffectAsset& asset
     const bool several = asset.techniques.size() > 1 || asset.techniques.front().passes.size() > 1;
     const auto elsewhere = several && !request.defines.empty() ? definesOfEffect(asset) : std::vector<std::string>{};
     auto sources = makeStageSources(std::move(flat), pass, request, elsewhere, problems);
-    checkPropertyTargets(asset.name, pass, sources, problems);
+    checkPropertyTargets(sourcesOf(asset), pass, sources, problems);
     problems.throwIfErrors();
     return sources;
 }

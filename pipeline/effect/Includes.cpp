@@ -209,9 +209,10 @@ private:
     }
 
     std::uint32_t fileIndex(const std::string& file) {
-        const auto it = std::find(out_.files.begin(), out_.files.end(), file);
-        if (it == out_.files.end()) out_.files.push_back(file);
-        return static_cast<std::uint32_t>(it == out_.files.end() ? out_.files.size() - 1 : it - out_.files.begin());
+        const auto index =
+            static_cast<std::size_t>(std::find(out_.files.begin(), out_.files.end(), file) - out_.files.begin());
+        if (index == out_.files.size()) out_.files.push_back(file);
+        return static_cast<std::uint32_t>(index);
     }
 
     struct Seen {

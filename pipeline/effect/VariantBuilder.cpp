@@ -109,18 +109,27 @@ std::vector<StageSource> makeStageSources(FlatPass flat, const EffectPass& pass,
     return sources;
 }
 
-void checkPropertyTargets(const std::string& effect, const EffectPass& pass, const std::vector<StageSource>& sources,
+void checkPropertyTargets(const IncludeSources& sources, const EffectPass& pass, const std::vector<StageSource>& stages,
                           Problems& problems) {
     std::set<std::string> words;
-    for (const StageSource& source : sources)
-        for (std::string& name : Declarations(source.flat).names()) words.insert(std::move(name));
+    const auto collect = [&](const FlatSource& flat) {
+        for (std::string& name : Declarations(flat).names()) words.insert(std::move(name));
+    };
+    const auto isMentioned = [&](const EffectProperty& p) { return words.contains(Material::targetUniform(p)); };
+    for (const StageSource& stage : stages) collect(stage.flat);
+    if (std::all_of(pass.properties.begin(), pass.properties.end(), isMentioned)) return;
+    // Passes often share one list of properties; another pass may be the one that uses it.
+    Problems ignored;
+    for (const EffectTechnique& technique : sources.effect.techniques)
+        for (const EffectPass& other : technique.passes)
+            for (const FlatSource& flat : flattenPass(sources, other, ignored).sources) collect(flat);
     for (const EffectProperty& property : pass.properties) {
+        if (isMentioned(property)) continue;
         const std::string target = Material::targetUniform(property);
-        if (words.contains(target)) continue;
         const auto near = nearestNames(target, {words.begin(), words.end()}, 1);
         problems.error(property.where,
                        fmt::format("property '{}' of effect '{}' feeds no uniform: no program mentions '{}'",
-                                   property.name, effect, target),
+                                   property.name, sources.effect.name, target),
                        near.empty() ? "declare it in a uniform block, or remove the property"
                                     : fmt::format("did you mean '{}'?", near[0]));
     }

@@ -29,8 +29,8 @@ FlatPass flattenPass(const IncludeSources& sources, const EffectPass& pass, Prob
 std::vector<StageSource> makeStageSources(FlatPass flat, const EffectPass& pass, const VariantRequest& request,
                                           const std::vector<std::string>& knownElsewhere, Problems& problems);
 
-/// Reports properties whose target no text of the pass mentions, in any branch.
-void checkPropertyTargets(const std::string& effect, const EffectPass& pass, const std::vector<StageSource>& sources,
+/// Reports properties whose target no text of the effect mentions, in any pass or branch.
+void checkPropertyTargets(const IncludeSources& sources, const EffectPass& pass, const std::vector<StageSource>& stages,
                           Problems& problems);
 
 }  // namespace crevice
