@@ -1,4 +1,5 @@
-// A pipeline document as plain structs, after `extends`, edits, options and `--set`: everything a frame is made from by name.
+// A pipeline document as plain structs, after `extends`, edits, options and `--set`: everything a frame is made from by
+// name.
 #pragma once
 
 #include <cstdint>
@@ -19,8 +20,8 @@ enum class SamplerKind : std::uint8_t { PointClamp, LinearClamp, LinearRepeat, S
 struct TargetDesc {
     std::string name;
     Format format = Format::RGBA8;
-    float scale = 1.0f;                    ///< Of the frame; ignored when `size` is set.
-    std::optional<glm::uvec2> size;        ///< Fixed pixels.
+    float scale = 1.0f;              ///< Of the frame; ignored when `size` is set.
+    std::optional<glm::uvec2> size;  ///< Fixed pixels.
     std::uint32_t mips = 1, layers = 1;
     glm::vec4 clear{0};
     SamplerKind sampler = SamplerKind::PointClamp;
@@ -45,21 +46,21 @@ struct QueueDesc {
 };
 
 struct ReadWire {
-    std::string shaderName;   ///< Sampler or image in the stage's effect; empty = an extra read by hand.
-    std::string target;       ///< "name" or "name@mip"
+    std::string shaderName;  ///< Sampler or image in the stage's effect; empty = an extra read by hand.
+    std::string target;      ///< "name" or "name@mip"
     SourceLoc where;
 };
 
 struct StageDesc {
-    std::string stageClass;   ///< "SsaoStage"
-    std::string name;         ///< Unique in the pipeline; default = class.
-    bool enabled = true;      ///< Stage's and flow's `enabled`, options resolved.
+    std::string stageClass;  ///< "SsaoStage"
+    std::string name;        ///< Unique in the pipeline; default = class.
+    bool enabled = true;     ///< Stage's and flow's `enabled`, options resolved.
     std::optional<int> priority;
-    std::string effect;       ///< Empty = the class' default.
+    std::string effect;  ///< Empty = the class' default.
     SourceLoc effectWhere;
-    Value defines;            ///< Object or null.
-    Value material;           ///< Object or null.
-    Value params;             ///< Object or null.
+    Value defines;   ///< Object or null.
+    Value material;  ///< Object or null.
+    Value params;    ///< Object or null.
     std::vector<ReadWire> reads;
     std::vector<std::string> writes;
     std::vector<QueueDesc> queues;
@@ -79,8 +80,8 @@ struct OptionDesc {
     std::string name;
     OptionType type = OptionType::Bool;
     Value defaultValue;
-    Value value;               ///< In force.
-    double min = 0, max = 0;   ///< Number.
+    Value value;              ///< In force.
+    double min = 0, max = 0;  ///< Number.
     std::vector<std::string> choices;
     std::string help;
     SourceLoc where;
@@ -90,10 +91,10 @@ struct PipelineDesc {
     std::string name;
     std::string path;
     std::string help;
-    std::string output;        ///< Target that a frame is read back from.
+    std::string output;  ///< Target that a frame is read back from.
     SourceLoc outputWhere;
     std::vector<std::string> plugins;
-    std::vector<TargetDesc> targets;   ///< Document order, parent before child.
+    std::vector<TargetDesc> targets;  ///< Document order, parent before child.
     std::vector<BlockPin> blocks;
     std::vector<OptionDesc> options;
     std::vector<FlowDesc> flows;

@@ -1,0 +1,87 @@
+// Loads a pipeline document, step by step.
+#include "plan/PipelineAsset.h"
+
+#include "plan/PipelineAssetFiles.h"
+#include "plan/PipelineAssetReader.h"
+#include "plan/PipelineEdits.h"
+#include "plan/PipelineOptions.h"
+
+namespace crevice {
+namespace {
+
+using Chain = std::vector<PipelineSource>;
+
+/// Parent first: what the chain of documents says together, edits applied. Options are still open.
+PipelineTree mergeChain(const Chain& chain, const PriorityLookup& defaultPriority, Problems& problems) {
+    PipelineTree tree;
+    for (const PipelineSource& source : chain) {
+        mergeDocument(tree, source.tree, problems);
+        applyEdits(tree, source.tree, defaultPriority, problems);
+    }
+    tree.document.setWhere(chain.back().tree.where());
+    checkChoiceSets(tree, problems);
+    return tree;
+}
+
+PipelineDesc loadChain(const Chain& chain, const PipelineRequest& request, Problems& problems) {
+    PipelineTree tree = mergeChain(chain, request.defaultPriority, problems);
+    std::vector<OptionDesc> options = readOptions(tree.document, request.options, problems);
+    applyChoiceSets(tree, options);
+    applySets(tree, request.sets, problems);
+    substituteOptions(tree.document, options, problems);
+    PipelineDesc desc = readPipelineTree(tree.document, std::move(options), chain.back().file, problems);
+    problems.throwIfErrors();
+    return desc;
+}
+
+/// The keys of a document in the order of a reader's interest.
+Value inReadingOrder(const Value& document) {
+    Value ordered = Value::makeObject(document.where());
+    for (const char* key : {"name", "help", "output", "plugins", "options", "targets", "blocks", "flows"})
+        for (const Member& member : document.members())
+            if (member.key == key) ordered.set(key, member.value, member.keyLoc);
+    return ordered;
+}
+
+Value flattenChain(const Chain& chain, const PipelineRequest& request, FlattenOptions mode, Problems& problems) {
+    (void)loadChain(chain, request, problems);  // Only a document without mistakes is flattened.
+    PipelineTree tree = mergeChain(chain, request.defaultPriority, problems);
+    const std::vector<OptionDesc> options = readOptions(tree.document, request.options, problems);
+    if (mode == FlattenOptions::Resolve) applyChoiceSets(tree, options);
+    applySets(tree, request.sets, problems);
+    if (mode == FlattenOptions::Resolve) {
+        substituteOptions(tree.document, options, problems);
+        tree.document.erase("options");
+    } else if (!options.empty()) {
+        std::vector<std::string> paths;
+        for (const StageSet& set : request.sets) paths.push_back(set.path);
+        keepOptions(tree.document, options, paths);
+    }
+    return inReadingOrder(tree.document);
+}
+
+}  // namespace
+
+PipelineDesc loadPipeline(const AssetRoots& roots, const PipelineRequest& request) {
+    Problems problems;
+    return loadChain(readPipelineChain(roots, request.nameOrPath, problems), request, problems);
+}
+
+PipelineDesc parsePipeline(std::string_view text, const std::string& file, const AssetRoots& roots,
+                           const PipelineRequest& request) {
+    Problems problems;
+    return loadChain(parsePipelineChain(roots, text, file, problems), request, problems);
+}
+
+Value flattenPipeline(const AssetRoots& roots, const PipelineRequest& request, FlattenOptions options) {
+    Problems problems;
+    return flattenChain(readPipelineChain(roots, request.nameOrPath, problems), request, options, problems);
+}
+
+Value flattenParsed(std::string_view text, const std::string& file, const AssetRoots& roots,
+                    const PipelineRequest& request, FlattenOptions options) {
+    Problems problems;
+    return flattenChain(parsePipelineChain(roots, text, file, problems), request, options, problems);
+}
+
+}  // namespace crevice

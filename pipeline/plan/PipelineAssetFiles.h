@@ -1,0 +1,28 @@
+// Finds and reads the files of a pipeline document: the chain of `extends` and the flow files it names.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/Document.h"
+#include "core/Files.h"
+
+namespace crevice {
+
+/// One document of the chain. Its `flows` hold only objects with a name and well-formed stages; flow files are in
+/// place.
+struct PipelineSource {
+    Value tree;
+    std::string file;  ///< As messages name it.
+};
+
+/// The document of that name or path and its ancestors, oldest first. Throws Error when a file is missing or no JSON,
+/// or when `extends` is wrong; mistakes inside the documents go to `problems`.
+std::vector<PipelineSource> readPipelineChain(const AssetRoots& roots, const std::string& nameOrPath,
+                                              Problems& problems);
+/// The same, the youngest document from memory.
+std::vector<PipelineSource> parsePipelineChain(const AssetRoots& roots, std::string_view text, const std::string& file,
+                                               Problems& problems);
+
+}  // namespace crevice

@@ -1,0 +1,158 @@
+// Merges documents and finds the parts of a pipeline tree.
+#include "plan/PipelineEditsTree.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "plan/PipelineAssetKeys.h"
+
+namespace crevice {
+
+std::vector<Value>& treeFlows(Value& document) {
+    if (!document.find("flows")) document.set("flows", Value::makeArray(document.where()), document.where());
+    return document.find("flows")->items();
+}
+
+std::vector<Value>& flowStages(Value& flow) { return flow.find("stages")->items(); }
+const std::vector<Value>& flowStages(const Value& flow) { return flow.find("stages")->items(); }
+Value& stageAt(std::vector<Value>& flows, const TreePlace& place) { return flowStages(flows[place.flow])[place.stage]; }
+
+const std::string& stageName(const Value& stage) {
+    const Value* name = stage.find("name");
+    return name ? name->string() : stage.find("stage")->string();
+}
+
+const SourceLoc& stageNameWhere(const Value& stage) {
+    const Value* name = stage.find("name");
+    return name ? name->where() : stage.find("stage")->where();
+}
+
+std::optional<TreePlace> findStage(const std::vector<Value>& flows, const std::string& name) {
+    for (std::size_t f = 0; f < flows.size(); ++f) {
+        const auto& stages = flowStages(flows[f]);
+        for (std::size_t s = 0; s < stages.size(); ++s)
+            if (stageName(stages[s]) == name) return TreePlace{f, s};
+    }
+    return std::nullopt;
+}
+
+std::optional<std::size_t> findFlow(const std::vector<Value>& flows, const std::string& name) {
+    for (std::size_t f = 0; f < flows.size(); ++f)
+        if (flows[f].find("flow")->string() == name) return f;
+    return std::nullopt;
+}
+
+std::vector<std::string> stageNames(const std::vector<Value>& flows) {
+    std::vector<std::string> names;
+    for (const Value& flow : flows)
+        for (const Value& stage : flowStages(flow)) names.push_back(stageName(stage));
+    return names;
+}
+
+std::vector<std::string> flowNames(const std::vector<Value>& flows) {
+    std::vector<std::string> names;
+    for (const Value& flow : flows) names.push_back(flow.find("flow")->string());
+    return names;
+}
+
+void addFlow(std::vector<Value>& flows, const Value& flow, Problems& problems) {
+    const Value& name = *flow.find("flow");
+    if (const auto first = findFlow(flows, name.string())) {
+        problems.error(name.where(), fmt::format("a second flow named '{}'", name.string()),
+                       "to change the stages of the first one, use \"edits\"",
+                       {{flows[*first].find("flow")->where(), "the first one is here"}});
+        return;
+    }
+    const auto priorityOf = [](const Value& f) -> std::optional<std::int64_t> {
+        const Value* priority = f.find("priority");
+        return priority && priority->isInteger() ? std::optional(priority->integer()) : std::nullopt;
+    };
+    const auto priority = priorityOf(flow);
+    const auto later = std::find_if(flows.begin(), flows.end(), [&](const Value& other) {
+        const auto otherPriority = priorityOf(other);
+        return priority && otherPriority && *otherPriority > *priority;
+    });
+    flows.insert(later, flow);
+}
+
+void mergeKey(Value& object, const std::string& key, const Value& value, const SourceLoc& where) {
+    Value* old = object.find(key);
+    if (value.isNull()) {
+        object.erase(key);
+    } else if (old && old->isObject() && value.isObject()) {
+        for (const Member& member : value.members()) mergeKey(*old, member.key, member.value, member.keyLoc);
+    } else {
+        object.set(key, value, where);
+    }
+}
+
+namespace {
+
+/// Ways to give a size exclude each other: the later one wins.
+void mergeDefinition(Value& first, const Value& second) {
+    if (second.find("scale") || second.find("like")) first.erase("size");
+    if (second.find("size") || second.find("like")) first.erase("scale");
+    for (const Member& member : second.members())
+        if (member.key != "override") mergeKey(first, member.key, member.value, member.keyLoc);
+}
+
+/// "targets", "blocks" or "options": new names are added, known ones need "override", null takes one out.
+void mergeSection(Value& document, const Value& from, const char* section, const char* what, Problems& problems) {
+    if (!document.find(section)) document.set(section, Value::makeObject(from.where()), from.where());
+    Value& into = *document.find(section);
+    for (const Member& member : from.members()) {
+        const Value* flag = member.value.isObject() ? member.value.find("override") : nullptr;
+        const bool overrides = flag && flag->isBool() && flag->boolean();
+        const auto first = std::find_if(into.members().begin(), into.members().end(),
+                                        [&](const Member& other) { return other.key == member.key; });
+        if (member.value.isNull() && first != into.members().end()) {
+            into.erase(member.key);
+            continue;
+        }
+        if (first == into.members().end()) {
+            into.set(member.key, member.value, member.keyLoc);
+            if (overrides) into.find(member.key)->erase("override");
+        } else if (overrides && first->value.isObject()) {
+            mergeDefinition(first->value, member.value);
+        } else {
+            problems.error(member.keyLoc, fmt::format("{} '{}' is defined a second time", what, member.key),
+                           "add \"override\": true to change the first one, or choose another name",
+                           {{first->keyLoc, "first defined here"}});
+        }
+    }
+}
+
+void mergePlugins(Value& document, const Value& plugins) {
+    if (!document.find("plugins")) document.set("plugins", Value::makeArray(plugins.where()), plugins.where());
+    auto& all = document.find("plugins")->items();
+    for (const Value& plugin : plugins.items()) {
+        const bool known = plugin.isString() && std::any_of(all.begin(), all.end(), [&](const Value& other) {
+                               return other.isString() && other.string() == plugin.string();
+                           });
+        if (!known) all.push_back(plugin);
+    }
+}
+
+}  // namespace
+
+void mergeDocument(PipelineTree& tree, const Value& document, Problems& problems) {
+    if (!tree.document.isObject()) tree.document = Value::makeObject(document.where());
+    for (const Member& member : document.members()) {
+        const Value& value = member.value;
+        const KeySpec* spec = pipelineKeys().find(member.key);
+        if (!spec) continue;  // Reported when the file was read, as are values of a wrong type.
+        if (spec->kind == KeyKind::Text && value.isString() && member.key != "extends" && member.key != "$schema")
+            tree.document.set(member.key, value, member.keyLoc);
+        if (member.key == "plugins" && value.isArray()) mergePlugins(tree.document, value);
+        if (member.key == "targets" && value.isObject())
+            mergeSection(tree.document, value, "targets", "target", problems);
+        if (member.key == "blocks" && value.isObject()) mergeSection(tree.document, value, "blocks", "block", problems);
+        if (member.key == "options" && value.isObject())
+            mergeSection(tree.document, value, "options", "option", problems);
+        if (member.key == "flows" && value.isArray())
+            for (const Value& flow : value.items()) addFlow(treeFlows(tree.document), flow, problems);
+    }
+}
+
+}  // namespace crevice

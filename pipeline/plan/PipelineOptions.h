@@ -1,0 +1,30 @@
+// Options of a pipeline document: their declarations, the caller's choices, and what `$name` stands for.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "core/Document.h"
+#include "plan/PipelineDesc.h"
+#include "plan/PipelineEdits.h"
+
+namespace crevice {
+
+/// Reads the "options" of a merged tree and puts the caller's values in force (type, range and choice checked).
+std::vector<OptionDesc> readOptions(const Value& document, const std::map<std::string, std::string>& requested,
+                                    Problems& problems);
+
+/// Drops choices' sets on stages that edits removed, checks the paths of the others.
+void checkChoiceSets(PipelineTree& tree, Problems& problems);
+
+/// Applies the sets that the values in force carry; their paths have been checked.
+void applyChoiceSets(PipelineTree& tree, const std::vector<OptionDesc>& options);
+
+/// Replaces "$name" in targets, flows and stages by the option's value at the place of use, and `enabled` by a bool.
+void substituteOptions(Value& document, const std::vector<OptionDesc>& options, Problems& problems);
+
+/// For `flatten` with options kept: values in force become defaults, and sets that `--set` overrides are dropped.
+void keepOptions(Value& document, const std::vector<OptionDesc>& options, const std::vector<std::string>& setPaths);
+
+}  // namespace crevice
