@@ -18,7 +18,7 @@ struct DeviceFacts {
     bool maintenance4 = false;
     bool robustBufferAccess = false;
     bool storageImageExtendedFormats = false;
-    std::vector<std::string> missingFormats;  ///< "RGBA16F as colour attachment"
+    std::vector<std::string> missingFormats{};  ///< "RGBA16F as colour attachment"
 };
 
 /// Empty when usable, else everything missing in words.
