@@ -127,8 +127,9 @@ Image decodeExr(std::span<const std::byte> bytes, const std::string& name) {
         parsed.header.requested_pixel_types[c] = TINYEXR_PIXELTYPE_FLOAT;
     }
     LoadedImage loaded;
-    if (LoadEXRImageFromMemory(&loaded.image, &parsed.header, asChars(bytes), bytes.size(), &message) !=
-        TINYEXR_SUCCESS) {
+    const int code = LoadEXRImageFromMemory(&loaded.image, &parsed.header, asChars(bytes), bytes.size(), &message);
+    if (code != TINYEXR_SUCCESS) {
+        InitEXRImage(&loaded.image);  // tinyexr has freed the planes already and left their pointers behind
         fail(name, takeMessage(message));
     }
     if (!loaded.image.images) fail(name, "it has no scan lines");

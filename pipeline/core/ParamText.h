@@ -28,6 +28,9 @@ struct ParamRange {
     bool showMin = false;  ///< false where nobody set a limit and the type has no natural one
     bool showMax = false;
 
+    bool holds(double value) const { return value >= min && value <= max; }
+    /// The range as a message about `value` shows it: a limit that the value breaks is always told.
+    ParamRange shownFor(double value) const { return {min, max, showMin || value < min, showMax || value > max}; }
     /// "0 … 1", "≥ 0", "≤ 1" or "".
     std::string text() const;
     /// "write a number from 0 to 1 (metres)".

@@ -46,14 +46,14 @@ void ParamReader::readNumber(const char* key, Number& value, const FieldInfo& in
         problems_.error(found->where(), fmt::format("'{}' in {} {}", key, what_, message), help);
     };
     constexpr bool kWhole = std::is_integral_v<Number>;
-    const ParamRange range = rangeOf<Number>(info);
+    const ParamRange range = rangeOf<Number>(info).shownFor(found->isNumber() ? found->number() : 0.0);
     if (!found->isNumber()) {
         complain(fmt::format("must be {}, found {}", kWhole ? "a whole number" : "a number", found->typeName()),
                  fmt::format("write a number without quotes, such as \"{}\": {}", key, numberText(value)));
     } else if (kWhole && !found->isInteger()) {
         complain(fmt::format("must be a whole number, found {}", describe(*found)),
                  fmt::format("write it without fraction or exponent, such as \"{}\": {}", key, numberText(value)));
-    } else if (found->number() < range.min || found->number() > range.max) {
+    } else if (!range.holds(found->number())) {
         complain(fmt::format("is {}, outside {}", describe(*found), range.text()), range.help(info.unit));
     } else {
         value = static_cast<Number>(found->number());
@@ -84,9 +84,10 @@ void ParamReader::readVector(const char* key, Vec& value, const FieldInfo& info)
             complain(item, fmt::format("{} must be a number, found {}", name, item.typeName()), example);
             return;
         }
-        if (item.number() < range.min || item.number() > range.max) {
-            complain(item, fmt::format("{} is {}, outside {}", name, describe(item), range.text()),
-                     range.help(info.unit));
+        if (!range.holds(item.number())) {
+            complain(item,
+                     fmt::format("{} is {}, outside {}", name, describe(item), range.shownFor(item.number()).text()),
+                     range.shownFor(item.number()).help(info.unit));
             return;
         }
         read[i] = static_cast<float>(item.number());
