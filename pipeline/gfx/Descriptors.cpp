@@ -61,7 +61,7 @@ DescriptorSet& DescriptorSet::operator=(DescriptorSet&& other) noexcept {
     if (this == &other) return *this;
     release();
     device_ = other.device_;
-    pool_ = other.pool_;
+    block_ = other.block_;
     set_ = std::exchange(other.set_, VK_NULL_HANDLE);
     dynamicCount_ = other.dynamicCount_;
     slots_ = std::move(other.slots_);
@@ -73,7 +73,8 @@ DescriptorSet::~DescriptorSet() { release(); }
 
 void DescriptorSet::release() {
     if (set_ == VK_NULL_HANDLE) return;
-    vkFreeDescriptorSets(device_->handle(), pool_, 1, &set_);  // never fails
+    vkFreeDescriptorSets(device_->handle(), block_->pool.get(), 1, &set_);  // never fails
+    --block_->live;
     --device_->live()[ObjectKind::DescriptorSet];
     set_ = VK_NULL_HANDLE;
 }
@@ -163,18 +164,10 @@ DescriptorPool::DescriptorPool(Device& device, std::uint32_t setsPerPool) : devi
 
 DescriptorSet DescriptorPool::allocate(const SetLayout& layout, const std::string& name) {
     DescriptorSet set;
-    for (auto pool = pools_.rbegin(); pool != pools_.rend() && !set; ++pool) {
-        set.pool_ = pool->get();
-        set.set_ = tryAllocate(set.pool_, layout);
+    const auto hasRoom = [&](const auto& block) { return tryAllocate(set, *block, layout); };
+    if (std::none_of(blocks_.rbegin(), blocks_.rend(), hasRoom) && !tryAllocate(set, addBlock(layout), layout)) {
+        throwVkError(VK_ERROR_OUT_OF_POOL_MEMORY, "vkAllocateDescriptorSets from a new pool");
     }
-    if (!set) {
-        addPool(layout);
-        set.pool_ = pools_.back().get();
-        set.set_ = tryAllocate(set.pool_, layout);
-        if (!set) throwVkError(VK_ERROR_OUT_OF_POOL_MEMORY, "vkAllocateDescriptorSets from a new pool");
-    }
-    set.device_ = &device_;
-    ++device_.live()[ObjectKind::DescriptorSet];
     device_.setName(VK_OBJECT_TYPE_DESCRIPTOR_SET, set.set_, name);
     set.dynamicCount_ = layout.dynamicCount();
     for (const SetLayoutBinding& binding : layout.bindings()) {
@@ -183,20 +176,26 @@ DescriptorSet DescriptorPool::allocate(const SetLayout& layout, const std::strin
     return set;
 }
 
-VkDescriptorSet DescriptorPool::tryAllocate(VkDescriptorPool pool, const SetLayout& layout) {
+bool DescriptorPool::tryAllocate(DescriptorSet& set, DescriptorBlock& block, const SetLayout& layout) {
+    if (block.live == setsPerPool_) return false;
     auto info = vkStruct<VkDescriptorSetAllocateInfo>(VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO);
     const VkDescriptorSetLayout handle = layout.handle();
-    info.descriptorPool = pool;
+    info.descriptorPool = block.pool.get();
     info.descriptorSetCount = 1;
     info.pSetLayouts = &handle;
-    VkDescriptorSet set = VK_NULL_HANDLE;
-    const VkResult result = vkAllocateDescriptorSets(device_.handle(), &info, &set);
-    if (result == VK_ERROR_OUT_OF_POOL_MEMORY || result == VK_ERROR_FRAGMENTED_POOL) return VK_NULL_HANDLE;
+    VkDescriptorSet allocated = VK_NULL_HANDLE;
+    const VkResult result = vkAllocateDescriptorSets(device_.handle(), &info, &allocated);
+    if (result == VK_ERROR_OUT_OF_POOL_MEMORY || result == VK_ERROR_FRAGMENTED_POOL) return false;
     VK_CALL(result);
-    return set;
+    set.device_ = &device_;
+    set.block_ = &block;
+    set.set_ = allocated;
+    ++block.live;
+    ++device_.live()[ObjectKind::DescriptorSet];
+    return true;
 }
 
-void DescriptorPool::addPool(const SetLayout& layout) {
+DescriptorBlock& DescriptorPool::addBlock(const SetLayout& layout) {
     std::array<std::uint32_t, kTypes.size()> needed{};
     for (const SetLayoutBinding& binding : layout.bindings()) {
         needed[static_cast<std::size_t>(binding.type)] += binding.count;
@@ -212,7 +211,9 @@ void DescriptorPool::addPool(const SetLayout& layout) {
     info.pPoolSizes = sizes.data();
     VkDescriptorPool pool = VK_NULL_HANDLE;
     VK_CALL(vkCreateDescriptorPool(device_.handle(), &info, nullptr, &pool));
-    pools_.push_back(own<vkDestroyDescriptorPool, ObjectKind::DescriptorPool>(device_, pool));
+    auto block = std::make_unique<DescriptorBlock>();
+    block->pool = own<vkDestroyDescriptorPool, ObjectKind::DescriptorPool>(device_, pool);
+    return *blocks_.emplace_back(std::move(block));
 }
 
 }  // namespace crevice

@@ -49,6 +49,12 @@ private:
     Unique<VkDescriptorSetLayout> layout_;
 };
 
+/// One Vulkan pool and how many sets are taken from it; some drivers would give more than was asked for.
+struct DescriptorBlock {
+    Unique<VkDescriptorPool> pool;
+    std::uint32_t live = 0;
+};
+
 /// One set. Collect writes, then update() once; a set must not be updated while the GPU uses it.
 class DescriptorSet {
 public:
@@ -100,7 +106,7 @@ private:
     void release();
 
     Device* device_ = nullptr;
-    VkDescriptorPool pool_ = VK_NULL_HANDLE;
+    DescriptorBlock* block_ = nullptr;
     VkDescriptorSet set_ = VK_NULL_HANDLE;
     std::uint32_t dynamicCount_ = 0;
     std::vector<Slot> slots_;
@@ -114,12 +120,12 @@ public:
     DescriptorSet allocate(const SetLayout& layout, const std::string& name = {});
 
 private:
-    VkDescriptorSet tryAllocate(VkDescriptorPool pool, const SetLayout& layout);
-    void addPool(const SetLayout& layout);
+    bool tryAllocate(DescriptorSet& set, DescriptorBlock& block, const SetLayout& layout);
+    DescriptorBlock& addBlock(const SetLayout& layout);
 
     Device& device_;
     std::uint32_t setsPerPool_;
-    std::vector<Unique<VkDescriptorPool>> pools_;
+    std::vector<std::unique_ptr<DescriptorBlock>> blocks_;  ///< Sets point at them.
 };
 
 }  // namespace crevice
