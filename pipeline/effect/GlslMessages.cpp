@@ -87,6 +87,14 @@ Problem describe(const Message& message, const StageSource& source, int line) {
         return {Severity::Error, placeOf(source, line, name), fmt::format("uniform '{}' stands outside a block", name),
                 fmt::format("put it into a block: uniform Properties {{ … {}; }};", name.empty() ? "name" : name)};
     }
+    if (message.word == "#error") {  // glslang repeats its text word by word; the line itself reads better.
+        const std::string_view text = splitLines(source.text)[static_cast<std::size_t>(line) - 1];
+        const auto begin = text.find_first_not_of(' ', text.find("error") + 5);
+        return {Severity::Error,
+                placeOf(source, line, {}),
+                "#error " + std::string(text.substr(std::min(begin, text.size()))),
+                {}};
+    }
     Problem problem{Severity::Error, placeOf(source, line, message.word), "GLSL: " + message.text, {}};
     if (!message.word.empty()) problem.message = fmt::format("GLSL: '{}': {}", message.word, message.text);
     if (message.text == "undeclared identifier" || contains(message.text, "no matching overloaded function")) {
@@ -118,6 +126,7 @@ void reportGlslMessages(std::string_view log, const StageSource& source, Problem
         }
         const Problem problem = describe(*message, source, line);
         problems.error(problem.where, problem.message, problem.help);
+        if (message->word == "#error") return;  // What follows is only that the text ends too early.
     }
 }
 

@@ -44,7 +44,8 @@ struct Chunk {
     std::string key;    ///< Identity for include-once and cycles.
     std::string shown;  ///< Name in chains.
     std::string file;
-    std::string text;
+    std::string text;  ///< Empty while it is only in the file.
+    bool inFile = false;
     int firstLine = 1;
     fs::path folder;  ///< Base of "./" includes; empty for generated chunks.
 };
@@ -65,12 +66,12 @@ private:
                               const char* what) {
         if (const auto it = sources_.effect.programs.find(name); it != sources_.effect.programs.end()) {
             const std::string& path = sources_.effect.path;
-            return Chunk{"program " + name, name, path, it->second.text, it->second.firstLine, effectFolder()};
+            return Chunk{"program " + name, name, path, it->second.text, false, it->second.firstLine, effectFolder()};
         }
         if (name.starts_with('.')) return findRelative(name, folder, where);
         if (const auto it = sources_.generated.find(name); it != sources_.generated.end())
-            return Chunk{"generated " + name, name, "<generated " + name + ">", it->second, 1, {}};
-        if (const auto path = sources_.roots.find(AssetKind::Chunk, name)) return readFile(*path, name);
+            return Chunk{"generated " + name, name, "<generated " + name + ">", it->second, false, 1, {}};
+        if (const auto path = sources_.roots.find(AssetKind::Chunk, name)) return fileChunk(*path, name);
         reportMissing(name, where, what);
         return std::nullopt;
     }
@@ -84,16 +85,15 @@ private:
             return std::nullopt;
         }
         std::error_code error;
-        if (fs::is_regular_file(path, error)) return readFile(path, name);
+        if (fs::is_regular_file(path, error)) return fileChunk(path, name);
         problems_.error(where, fmt::format("no chunk '{}'", name), fmt::format("looked for {}", path.string()));
         return std::nullopt;
     }
 
-    Chunk readFile(const fs::path& path, const std::string& name) {
+    Chunk fileChunk(const fs::path& path, const std::string& name) {
         std::error_code error;
         const fs::path real = fs::weakly_canonical(path, error);
-        return {"file " + (error ? path : real).string(), name, path.string(),
-                readText(path, sources_.limits.maxBytes), 1,    path.parent_path()};
+        return {"file " + (error ? path : real).string(), name, path.string(), {}, true, 1, path.parent_path()};
     }
 
     void reportMissing(const std::string& name, const SourceLoc& where, const char* what) {
@@ -117,7 +117,7 @@ private:
     void emit(const Chunk& chunk, const SourceLoc& where) {
         stack_.push_back({chunk.key, chunk.shown});
         const std::uint32_t file = fileIndex(chunk.file);
-        std::string text = blankComments(chunk.text);
+        std::string text = blankComments(chunk.inFile ? readText(chunk.file, sources_.limits.maxBytes) : chunk.text);
         if (text.starts_with("\xEF\xBB\xBF")) text.replace(0, 3, "   ");
         bytes_ += text.size();
         int line = chunk.firstLine;
