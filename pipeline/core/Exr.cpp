@@ -129,7 +129,8 @@ Image decodeExr(std::span<const std::byte> bytes, const std::string& name) {
     LoadedImage loaded;
     const int code = LoadEXRImageFromMemory(&loaded.image, &parsed.header, asChars(bytes), bytes.size(), &message);
     if (code != TINYEXR_SUCCESS) {
-        InitEXRImage(&loaded.image);  // tinyexr has freed the planes already and left their pointers behind
+        InitEXRImage(
+            &loaded.image);  // tinyexr 1.0.1 has freed the list of planes (not the planes: a leak) and left its pointer
         fail(name, takeMessage(message));
     }
     if (!loaded.image.images) fail(name, "it has no scan lines");
