@@ -64,6 +64,7 @@ void RenderPipeline::prepare(const Scene& scene) {
     targets_.reset();
     scene_.reset();
     program_.prepare(&scene);
+    log_.write(program_.globals().notes());
     log_.write(program_.plan().notes);
     scene_ = std::make_unique<SceneGpu>(device_, samplers_, scene);
     const std::vector<std::byte> lights = punctualLights(scene);
@@ -159,7 +160,7 @@ void RenderPipeline::beginStage(const StageExecution& execution) {
         const LoadOp load = planned.clears ? LoadOp::Clear : LoadOp::Load;
         if (write.kind == WriteKind::Color) {
             rendering.colors.push_back({.texture = &texture, .load = load, .clear = clear, .mip = write.mip});
-        } else {
+        } else if (write.kind != WriteKind::Storage) {
             rendering.depth = {.texture = &texture, .load = load, .clear = clear.x, .readOnly = write.kind == WriteKind::DepthTest, .mip = write.mip};
         }
     }
