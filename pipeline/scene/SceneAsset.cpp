@@ -71,11 +71,13 @@ private:
     }
 
     void readGltf(ParamReader& reader) {
-        std::string name;
-        reader.field("gltf", name, {.help = "A glTF to start from, relative to this file"});
         const Value* value = reader.take("gltf");
-        if (name.empty() || !value) return;
-        const std::optional<fs::path> path = findGltf(*value, name);
+        if (!value) return;
+        if (!value->isString()) {
+            problems_.error(value->where(), fmt::format("'gltf' must be a string, found {}", value->typeName()));
+            return;
+        }
+        const std::optional<fs::path> path = findGltf(*value, value->string());
         if (!path) return;
         try {
             scene_ = loadGltf(*path, options_);
@@ -169,15 +171,15 @@ private:
         reader.finish();
     }
 
-    PlacementFields readPlacement(ParamReader& reader) {
+    PlacementFields readPlacement(ParamReader& reader, const Value& object) {
         PlacementFields placement;
         visitFields(reader, placement);
-        const Value* scale = reader.take("scale");
+        const Value* scale = object.isObject() ? object.find("scale") : nullptr;
         if (scale && scale->isNumber()) {
+            reader.take("scale");
             placement.scale = glm::vec3(float(scale->number()));
         } else {
-            reader.field("scale", placement.scale,
-                         {.min = -1e6, .max = 1e6, .help = "Scaled first; one number or three"});
+            reader.field("scale", placement.scale, {.help = "Scaled first; one number or three"});
         }
         for (int i = 0; i < 3 && scale; ++i)
             if (!(std::abs(placement.scale[i]) >= 1e-6f && std::abs(placement.scale[i]) <= 1e6f)) {
@@ -189,9 +191,13 @@ private:
 
     std::vector<glm::mat4> readPlaces(ParamReader& reader, const Value& value, const std::string& what,
                                       const std::vector<glm::mat4>& parents) {
-        const glm::mat4 own = readPlacement(reader).matrix();
+        const glm::mat4 own = readPlacement(reader, value).matrix();
         ArrayFields array;
-        if (const Value* cells = reader.take("array")) readStruct(*cells, "'array' of " + what, array);
+        if (const Value* cells = reader.take("array")) {
+            readStruct(*cells, "'array' of " + what, array);
+            if (array.count != glm::floor(array.count))
+                problems_.error(cells->where(), fmt::format("'count' in 'array' of {} has a fraction", what));
+        }
         std::vector<glm::mat4> instances;
         const Value* list = reader.take("instances");
         readList(list, "'instances' of " + what, [&](const Value& item, const std::string& itemName) {
@@ -224,7 +230,7 @@ private:
         PlacementFields placement;
         if (!item.isArray()) {
             ParamReader reader(item, what, problems_);
-            placement = readPlacement(reader);
+            placement = readPlacement(reader, item);
             reader.finish();
             return placement.matrix();
         }

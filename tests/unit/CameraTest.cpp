@@ -3,8 +3,8 @@
 
 #include <cmath>
 
-#include <glm/gtc/matrix_transform.hpp>
 #include <gtest/gtest.h>
+#include <glm/gtc/matrix_transform.hpp>
 
 #include "scene/Scene.h"
 
@@ -94,7 +94,8 @@ TEST(Camera, FramesBoxesOfEverySize) {
             const glm::mat4 viewProjection = camera.projection(aspect) * camera.view;
             float widest = 0;
             for (int i = 0; i < 8; ++i) {
-                const glm::vec3 corner(i & 1 ? box.max.x : box.min.x, i & 2 ? box.max.y : box.min.y, i & 4 ? box.max.z : box.min.z);
+                const glm::vec3 corner(i & 1 ? box.max.x : box.min.x, i & 2 ? box.max.y : box.min.y,
+                                       i & 4 ? box.max.z : box.min.z);
                 const glm::vec3 ndc = toNdc(viewProjection, corner);
                 widest = std::max({widest, std::abs(ndc.x), std::abs(ndc.y)});
                 EXPECT_GE(ndc.z, 0) << size;
@@ -155,7 +156,8 @@ TEST(Camera, FitsDepthWhenEverythingIsBehind) {
 
 TEST(Aabb, TransformedBoxHoldsAllCorners) {
     const Aabb box = boxOf({-1, -2, -3}, {1, 2, 3});
-    const glm::mat4 m = glm::scale(glm::rotate(glm::translate(glm::mat4(1), {5, 0, 0}), glm::radians(90.0f), {0, 0, 1}), {2, 1, -1});
+    const glm::mat4 m =
+        glm::scale(glm::rotate(glm::translate(glm::mat4(1), {5, 0, 0}), glm::radians(90.0f), {0, 0, 1}), {2, 1, -1});
     const Aabb moved = box.transformed(m);
     EXPECT_NEAR(moved.min.x, 3, 1e-5);
     EXPECT_NEAR(moved.max.x, 7, 1e-5);

@@ -1,8 +1,8 @@
 // Draw lists: what is culled, in which order things are drawn, what is merged.
 #include "scene/DrawList.h"
 
-#include <glm/gtc/matrix_transform.hpp>
 #include <gtest/gtest.h>
+#include <glm/gtc/matrix_transform.hpp>
 
 #include "scene/Primitives.h"
 
@@ -86,14 +86,14 @@ TEST(DrawList, FiltersByAlphaMode) {
 
 TEST(DrawList, CullsWhatLiesOutsideEveryPlane) {
     World world;
-    world.add(0, 0, {0, 0, -5});     // seen
-    world.add(0, 0, {0, 0, 5});      // behind
-    world.add(0, 0, {0, 0, -200});   // beyond far
-    world.add(0, 0, {-50, 0, -5});   // left
-    world.add(0, 0, {50, 0, -5});    // right
-    world.add(0, 0, {0, 50, -5});    // above
-    world.add(0, 0, {0, -50, -5});   // below
-    world.add(0, 0, {0, 0, 0.3f});   // around the camera
+    world.add(0, 0, {0, 0, -5});    // seen
+    world.add(0, 0, {0, 0, 5});     // behind
+    world.add(0, 0, {0, 0, -200});  // beyond far
+    world.add(0, 0, {-50, 0, -5});  // left
+    world.add(0, 0, {50, 0, -5});   // right
+    world.add(0, 0, {0, 50, -5});   // above
+    world.add(0, 0, {0, -50, -5});  // below
+    world.add(0, 0, {0, 0, 0.3f});  // around the camera
     EXPECT_EQ(world.build(DrawFilter::All, DrawOrder::FrontToBack).instances, (Indices{7, 0}));
     EXPECT_EQ(world.build(DrawFilter::All, DrawOrder::FrontToBack, false).instances.size(), 8u);
 }

@@ -53,8 +53,10 @@ int openEdges(const Mesh& mesh) {
         for (std::size_t k = 0; k < 3; ++k) {
             const auto a = quantised(mesh.vertices[mesh.indices[i + k]].position);
             const auto b = quantised(mesh.vertices[mesh.indices[i + (k + 1) % 3]].position);
-            if (a < b) ++edges[{a, b}];
-            else --edges[{b, a}];
+            if (a < b)
+                ++edges[{a, b}];
+            else
+                --edges[{b, a}];
         }
     int open = 0;
     for (const auto& [edge, balance] : edges) open += balance != 0;
@@ -139,7 +141,8 @@ TEST(Primitives, LatheKeepsSharpKinksAndSmoothsFlatOnes) {
     const std::vector<glm::vec2> flat = {{1, 0}, {1.1f, 1}, {1, 2}};
     for (const glm::vec3& normal : normalsAt(makeLathe(flat, 16), {1.1f, 1, 0})) EXPECT_NEAR(normal.x, 1, 1e-5);
     const std::vector<glm::vec2> sharp = {{1, 0}, {2, 1}, {1, 2}};
-    for (const glm::vec3& normal : normalsAt(makeLathe(sharp, 16), {2, 1, 0})) EXPECT_NEAR(normal.x, std::sqrt(0.5f), 1e-5);
+    for (const glm::vec3& normal : normalsAt(makeLathe(sharp, 16), {2, 1, 0}))
+        EXPECT_NEAR(normal.x, std::sqrt(0.5f), 1e-5);
 }
 
 }  // namespace
