@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <cstring>
 #include <limits>
+#include <memory>
 #include <span>
 #include <string_view>
 
@@ -16,7 +17,6 @@
 #include <isa-l/igzip_lib.h>
 #else
 #include <cstdlib>
-#include <memory>
 
 #include <spng.h>
 #endif
@@ -32,7 +32,8 @@ constexpr std::uint8_t kPngRgba = 6;
 struct PngPixels {
     std::uint8_t colorType = kPngGrey;
     std::size_t channels = 1;
-    std::vector<std::byte> bytes;
+    std::span<const std::byte> bytes;
+    std::vector<std::byte> converted;  // what `bytes` shows, unless that is the image itself
 };
 
 bool isOpaque(const Image& image) {
@@ -55,18 +56,24 @@ std::vector<std::byte> toRgb(const Image& image, std::size_t channels) {
     return rgb;
 }
 
+PngPixels asRgb(const Image& image, std::size_t channels) {
+    PngPixels pixels{kPngRgb, 3, {}, toRgb(image, channels)};
+    pixels.bytes = pixels.converted;  // a vector keeps its memory when it is moved
+    return pixels;
+}
+
 PngPixels toPngPixels(const Image& image) {
     switch (image.format) {
         case Format::R8:
-            return {kPngGrey, 1, image.pixels};
+            return {kPngGrey, 1, image.pixels, {}};
         case Format::RG8:
-            return {kPngRgb, 3, toRgb(image, 2)};
+            return asRgb(image, 2);
         default:
             break;
     }
     assert(image.format == Format::RGBA8 || image.format == Format::RGBA8_SRGB);
-    if (isOpaque(image)) return {kPngRgb, 3, toRgb(image, 4)};
-    return {kPngRgba, 4, image.pixels};
+    if (isOpaque(image)) return asRgb(image, 4);
+    return {kPngRgba, 4, image.pixels, {}};
 }
 
 #ifdef CREVICE_HAVE_ISAL
@@ -89,12 +96,20 @@ void appendChunk(std::vector<std::byte>& out, std::string_view type, std::span<c
     appendBigEndian(out, crc32_gzip_refl(0, crcBytes, out.size() - begin));
 }
 
+/// Memory that is not cleared first: at this size clearing costs as much as compressing.
+struct RawBytes {
+    std::unique_ptr<std::uint8_t[]> data;
+    std::size_t size = 0;
+
+    explicit RawBytes(std::size_t count) : data(std::make_unique_for_overwrite<std::uint8_t[]>(count)), size(count) {}
+};
+
 /// Every row as the difference to the row above (filter 2, "up"), preceded by the filter's number.
-std::vector<std::uint8_t> filterUp(const PngPixels& pixels, std::size_t rowBytes, std::size_t rows) {
-    std::vector<std::uint8_t> filtered((rowBytes + 1) * rows);
+RawBytes filterUp(const PngPixels& pixels, std::size_t rowBytes, std::size_t rows) {
+    RawBytes filtered((rowBytes + 1) * rows);
     const auto* source = reinterpret_cast<const std::uint8_t*>(pixels.bytes.data());
     for (std::size_t y = 0; y < rows; ++y) {
-        std::uint8_t* target = filtered.data() + y * (rowBytes + 1);
+        std::uint8_t* target = filtered.data.get() + y * (rowBytes + 1);
         const std::uint8_t* row = source + y * rowBytes;
         *target++ = 2;
         if (y == 0) {
@@ -107,38 +122,33 @@ std::vector<std::uint8_t> filterUp(const PngPixels& pixels, std::size_t rowBytes
     return filtered;
 }
 
-std::vector<std::byte> deflate(std::vector<std::uint8_t>& input) {
+RawBytes deflate(RawBytes& input) {
     // Stored blocks are the worst case: 5 bytes for each 64 KiB, zlib's frame, and room for a header that is undone.
-    std::vector<std::byte> output(input.size() + input.size() / 1000 + 4096);
-    std::vector<std::uint8_t> work(ISAL_DEF_LVL1_DEFAULT);
+    RawBytes output(input.size + input.size / 1000 + 4096);
+    RawBytes work(ISAL_DEF_LVL1_DEFAULT);
     isal_zstream stream;
     isal_deflate_init(&stream);
     stream.level = 1;
-    stream.level_buf = work.data();
-    stream.level_buf_size = static_cast<std::uint32_t>(work.size());
+    stream.level_buf = work.data.get();
+    stream.level_buf_size = static_cast<std::uint32_t>(work.size);
     stream.gzip_flag = IGZIP_ZLIB;
     stream.end_of_stream = 1;
     stream.flush = NO_FLUSH;
-    stream.next_in = input.data();
-    stream.avail_in = static_cast<std::uint32_t>(input.size());
-    stream.next_out = reinterpret_cast<std::uint8_t*>(output.data());
-    stream.avail_out = static_cast<std::uint32_t>(output.size());
-    for (;;) {
-        const int result = isal_deflate(&stream);
-        if (result != COMP_OK) throw RenderError(fmt::format("compressing a PNG failed (code {})", result));
-        if (stream.internal_state.state == ZSTATE_END) break;
-        const std::size_t filled = stream.total_out;
-        output.resize(output.size() * 2);
-        stream.next_out = reinterpret_cast<std::uint8_t*>(output.data()) + filled;
-        stream.avail_out = static_cast<std::uint32_t>(output.size() - filled);
+    stream.next_in = input.data.get();
+    stream.avail_in = static_cast<std::uint32_t>(input.size);
+    stream.next_out = output.data.get();
+    stream.avail_out = static_cast<std::uint32_t>(output.size);
+    const int result = isal_deflate(&stream);
+    if (result != COMP_OK || stream.internal_state.state != ZSTATE_END) {
+        throw RenderError(fmt::format("compressing a PNG failed (code {})", result));
     }
-    output.resize(stream.total_out);
+    output.size = stream.total_out;
     return output;
 }
 
 std::vector<std::byte> encode(const PngPixels& pixels, std::uint32_t width, std::uint32_t height) {
-    std::vector<std::uint8_t> filtered = filterUp(pixels, width * pixels.channels, height);
-    const std::vector<std::byte> compressed = deflate(filtered);
+    RawBytes filtered = filterUp(pixels, width * pixels.channels, height);
+    const RawBytes compressed = deflate(filtered);
     std::vector<std::byte> header;
     appendBigEndian(header, width);
     appendBigEndian(header, height);
@@ -148,10 +158,10 @@ std::vector<std::byte> encode(const PngPixels& pixels, std::uint32_t width, std:
         header.push_back(std::byte{field});
     }
     std::vector<std::byte> png;
-    png.reserve(compressed.size() + 100);
+    png.reserve(compressed.size + 100);
     appendText(png, "\x89PNG\r\n\x1a\n");
     appendChunk(png, "IHDR", header);
-    appendChunk(png, "IDAT", compressed);
+    appendChunk(png, "IDAT", std::as_bytes(std::span(compressed.data.get(), compressed.size)));
     appendChunk(png, "IEND", {});
     return png;
 }
