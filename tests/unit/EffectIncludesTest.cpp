@@ -27,7 +27,7 @@ protected:
     }
     Problem problem() const { return problems_.all().empty() ? Problem{} : problems_.all().front(); }
 
-    TempFolder folder_;
+    EffectFolder folder_;
     EffectAsset effect_;
     Chunks generated_;
     Problems problems_;
@@ -141,7 +141,7 @@ TEST_F(EffectIncludes, CycleShowsTheChain) {
 }
 
 TEST_F(EffectIncludes, NoEscapeFromTheAssetFolders) {
-    TempFolder outside;
+    EffectFolder outside;
     outside.write("secret.chunk", "secret\n");
     program("main",
             "#include <../../../" + outside.path().filename().string() + "/secret>\n#include </etc/hostname>\n");
@@ -153,7 +153,7 @@ TEST_F(EffectIncludes, NoEscapeFromTheAssetFolders) {
 }
 
 TEST_F(EffectIncludes, NoEscapeThroughALink) {
-    TempFolder outside;
+    EffectFolder outside;
     outside.write("secret.chunk", "secret\n");
     std::filesystem::create_symlink(outside.path() / "secret.chunk", folder_.path() / "effects/sub/link.chunk");
     program("main", "#include <./link>\n");

@@ -88,7 +88,7 @@ TEST(EffectLibrary, UnknownEffectTechniqueAndPass) {
 TEST(EffectLibrary, EffectsByPath) {
     EffectBench bench;
     bench.fullscreen(kFragment);
-    TempFolder outside;
+    EffectFolder outside;
     std::filesystem::copy(bench.file(), outside.path() / "o.effect");
     EXPECT_EQ(bench.library.asset((outside.path() / "o.effect").string()).name, "o");
     // A document may only name files inside the asset folders.
@@ -139,7 +139,7 @@ protected:
         return found;
     }
 
-    TempFolder cache_;
+    EffectFolder cache_;
     EffectBench bench_;
     std::string before_;
 };

@@ -39,20 +39,20 @@ inline BindingMap contractBindings() {
 }
 
 /// A folder of its own that goes away with the test.
-class TempFolder {
+class EffectFolder {
 public:
-    TempFolder() {
+    EffectFolder() {
         static std::atomic<int> count{0};
         path_ = std::filesystem::temp_directory_path() /
                 ("crevice-effect-" + std::to_string(getpid()) + "-" + std::to_string(count++));
         std::filesystem::create_directories(path_);
     }
-    ~TempFolder() {
+    ~EffectFolder() {
         std::error_code ignored;
         std::filesystem::remove_all(path_, ignored);
     }
-    TempFolder(const TempFolder&) = delete;
-    TempFolder& operator=(const TempFolder&) = delete;
+    EffectFolder(const EffectFolder&) = delete;
+    EffectFolder& operator=(const EffectFolder&) = delete;
 
     const std::filesystem::path& path() const { return path_; }
     void write(const std::string& name, const std::string& text) const {
@@ -85,7 +85,7 @@ class EffectBench {
 public:
     EffectBench() { keepCompilerWarm(); }
 
-    TempFolder folder;
+    EffectFolder folder;
     EffectLibrary library{AssetRoots({folder.path()}), Log(LogLevel::Error), {.useDiskCache = false}};
 
     void effect(const std::string& text) const { folder.write("effects/e.effect", text); }
