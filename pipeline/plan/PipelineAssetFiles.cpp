@@ -153,7 +153,9 @@ void ChainReader::placeFlows(Value& document, const fs::path& folder, std::vecto
         if (!checkFlowShape(flow, fmt::format("flow {}", ++number), problems_)) continue;
         if (!flow.find("stages")) placeFlow(flow, folder, brought);
         if (!flow.find("stages")) continue;
+        const bool wasEmpty = flow.find("stages")->items().empty();
         keepGoodStages(flow);
+        if (flow.find("stages")->items().empty() && !wasEmpty) continue;
         good.push_back(std::move(flow));
     }
     document.find("flows")->items() = std::move(good);

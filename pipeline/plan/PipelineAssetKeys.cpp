@@ -21,7 +21,7 @@ const KeySpec kPipelineKeys[] = {
      .kind = KeyKind::Array,
      .help = "Plugins the document needs; the caller has to allow each.",
      .schema = kNameList,
-     .type = "array of names"},
+     .type = "list of names"},
     {.key = "targets",
      .kind = KeyKind::Object,
      .help = "Images by name. A name that starts with `cc_` enters set 0.",
@@ -33,17 +33,17 @@ const KeySpec kPipelineKeys[] = {
     {.key = "options",
      .kind = KeyKind::Object,
      .help = "Switches for the caller, by name.",
-     .schema = R"({"type":"object","additionalProperties":{"$ref":"#/$defs/option"}})"},
+     .schema = R"({"type":"object","additionalProperties":{"anyOf":[{"$ref":"#/$defs/option"},{"type":"null"}]}})"},
     {.key = "flows",
      .kind = KeyKind::Array,
      .help = "Groups of stages, in the order they run.",
      .schema = R"({"type":"array","items":{"$ref":"#/$defs/flow"}})",
-     .type = "array of flows"},
+     .type = "list of flows"},
     {.key = "edits",
      .kind = KeyKind::Array,
      .help = "Changes to the parent's stages, applied in order.",
      .schema = R"({"type":"array","items":{"$ref":"#/$defs/edit"}})",
-     .type = "array of edits"},
+     .type = "list of edits"},
 };
 
 const KeySpec kTargetKeys[] = {
@@ -78,7 +78,7 @@ const KeySpec kTargetKeys[] = {
      .help = "What the first write of a frame clears to, and what the target "
              "holds when nobody writes it.",
      .schema = R"({"anyOf":[{"type":"number"},{"type":"array","items":{"type":"number"},"minItems":4,"maxItems":4}]})",
-     .type = "number, or array of 4 numbers",
+     .type = "number, or list of 4 numbers",
      .defaultText = "0"},
     {.key = "sampler",
      .kind = KeyKind::Choice,
@@ -89,7 +89,7 @@ const KeySpec kTargetKeys[] = {
      .kind = KeyKind::Integer,
      .help = "Pinned number in set 0; only for names that start with `cc_`.",
      .min = 0,
-     .max = 31,
+     .max = 63,
      .defaultText = "the lowest free"},
     {.key = "persistent",
      .kind = KeyKind::Bool,
@@ -107,7 +107,7 @@ const KeySpec kBlockKeys[] = {
      .kind = KeyKind::Integer,
      .help = "Pinned number in set 0.",
      .min = 0,
-     .max = 31,
+     .max = 63,
      .defaultText = "the lowest free"},
     {.key = "override",
      .kind = KeyKind::Bool,
@@ -132,11 +132,11 @@ const KeySpec kOptionKeys[] = {
     {.key = "max", .kind = KeyKind::Number, .help = "Largest number allowed."},
     {.key = "choices",
      .kind = KeyKind::ObjectOrArray,
-     .help = "Names to choose from: an array, or an object whose values may "
+     .help = "Names to choose from: a list, or an object whose values may "
              "carry `set`. On a bool: what `true` and `false` set.",
      .schema = R"({"anyOf":[{"type":"array","items":{"type":"string"},"minItems":1},)"
                R"({"type":"object","additionalProperties":{"$ref":"#/$defs/choice"},"minProperties":1}]})",
-     .type = "array of names, or object of choices"},
+     .type = "list of names, or object of choices"},
     {.key = "override",
      .kind = KeyKind::Bool,
      .help = "Allows to change an option that an earlier document declares.",
@@ -169,7 +169,7 @@ const KeySpec kFlowKeys[] = {
      .kind = KeyKind::Array,
      .help = "Stages, in the order they run.",
      .schema = R"({"type":"array","items":{"$ref":"#/$defs/stage"},"minItems":1})",
-     .type = "array of stages"},
+     .type = "list of stages"},
 };
 
 const KeySpec kFlowFileKeys[] = {
@@ -191,13 +191,13 @@ const KeySpec kFlowFileKeys[] = {
     {.key = "options",
      .kind = KeyKind::Object,
      .help = "Options that the flow brings along.",
-     .schema = R"({"type":"object","additionalProperties":{"$ref":"#/$defs/option"}})"},
+     .schema = R"({"type":"object","additionalProperties":{"anyOf":[{"$ref":"#/$defs/option"},{"type":"null"}]}})"},
     {.key = "stages",
      .kind = KeyKind::Array,
      .help = "Stages, in the order they run.",
      .required = true,
      .schema = R"({"type":"array","items":{"$ref":"#/$defs/stage"},"minItems":1})",
-     .type = "array of stages"},
+     .type = "list of stages"},
 };
 
 const KeySpec kStageKeys[] = {
@@ -224,23 +224,23 @@ const KeySpec kStageKeys[] = {
     {.key = "params", .kind = KeyKind::Object, .help = "Parameters of the class: `crevice stages NAME` lists them."},
     {.key = "reads",
      .kind = KeyKind::ObjectOrArray,
-     .help = "Wires: sampler in the shader → target. As an array: the list of "
+     .help = "Wires: sampler in the shader → target. As a list: the list of "
              "targets read, checked against the shader.",
      .schema = R"({"anyOf":[{"type":"object","additionalProperties":{"type":"string"}},)"
                R"({"type":"array","items":{"type":"string"},"uniqueItems":true}]})",
-     .type = "object of targets, or array of targets"},
+     .type = "object of targets, or list of targets"},
     {.key = "writes",
      .kind = KeyKind::Array,
      .help = "Targets written, in the order of the shader's outputs; `name@level` is "
              "one mip level.",
      .schema = kVersionedNames,
-     .type = "array of targets",
+     .type = "list of targets",
      .defaultText = "the class's"},
     {.key = "queues",
      .kind = KeyKind::Array,
      .help = "What a scene stage draws, in order.",
      .schema = R"({"type":"array","items":{"$ref":"#/$defs/queue"}})",
-     .type = "array of queues",
+     .type = "list of queues",
      .defaultText = "the class's"},
 };
 

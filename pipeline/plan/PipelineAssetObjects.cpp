@@ -53,11 +53,11 @@ const char* kindWords(KeyKind kind) {
         case KeyKind::Object:
             return "an object";
         case KeyKind::Array:
-            return "an array";
+            return "a list";
         case KeyKind::ObjectOrArray:
-            return "an object or an array";
+            return "an object or a list";
         case KeyKind::NumberOrArray:
-            return "a number or an array";
+            return "a number or a list";
         case KeyKind::Any:
             return "a value";
     }
@@ -109,11 +109,11 @@ std::string keyTypeName(const KeySpec& spec) {
         case KeyKind::Object:
             return "object";
         case KeyKind::Array:
-            return "array";
+            return "list";
         case KeyKind::ObjectOrArray:
-            return "object or array";
+            return "object or list";
         case KeyKind::NumberOrArray:
-            return "number or array";
+            return "number or list";
         case KeyKind::Any:
             return "any";
     }
@@ -230,10 +230,10 @@ bool checkFlowShape(const Value& flow, const std::string& what, Problems& proble
     if (!checkIsObject(flow, what, problems) || !checkTextKey(flow, "flow", what, problems)) return false;
     const Value* stages = flow.find("stages");
     if (!stages || stages->isArray()) return true;
-    problems.error(stages->where(),
-                   fmt::format("'stages' of flow '{}' must be an array, found {}", flow.find("flow")->string(),
-                               stages->typeName()),
-                   "write \"stages\": [ { \"stage\": … } ]");
+    problems.error(
+        stages->where(),
+        fmt::format("'stages' of flow '{}' must be a list, found {}", flow.find("flow")->string(), stages->typeName()),
+        "write \"stages\": [ { \"stage\": … } ]");
     return false;
 }
 

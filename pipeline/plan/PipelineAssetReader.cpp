@@ -165,7 +165,7 @@ void TreeReader::readFlow(const Value& value) {
 void TreeReader::readFlows(const Value* flows, const SourceLoc& document) {
     if (flows)
         for (const Value& flow : flows->items()) readFlow(flow);
-    if (desc_.flows.empty())
+    if (desc_.flows.empty() && !problems_.hasErrors())  // A flow with a mistake may have been left out.
         problems_.error(flows ? flows->where() : document, "the pipeline has no flows",
                         "add \"flows\": [ { \"flow\": \"MainFlow\", \"stages\": [ … ] } ], or \"extends\"");
     const FlowDesc* last = nullptr;

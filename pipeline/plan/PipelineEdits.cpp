@@ -115,7 +115,7 @@ void Editor::insertFlow(const ObjectReader& reader, const Value& flow) {
         if (!checkStageShape(stage, "a stage of an inserted flow", problems_)) return;
     const Value* anchor = anchorOf(reader);
     if (!anchor) {
-        addFlow(flows_, flow, problems_);
+        addFlow(flows_, flow, true, problems_);
         return;
     }
     const auto place = findFlow(flows_, anchor->string());

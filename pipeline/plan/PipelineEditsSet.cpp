@@ -105,7 +105,7 @@ private:
     void setInMap(Value& stage, const std::string& key, const std::string& what) {
         if (parts_.size() > 3) {
             fail(fmt::format("'{}' goes deeper than a value of '{}'", path_, key),
-                 fmt::format("write '{}.{}.{}' and a scalar or an array", parts_[0], key, parts_[2]));
+                 fmt::format("write '{}.{}.{}' and a scalar or a list", parts_[0], key, parts_[2]));
         } else if (parts_.size() == 2 && !value_.isObject() && !(key == "reads" && value_.isArray())) {
             fail(fmt::format("'{}' of {} is a group of values, found {}", key, what, value_.typeName()),
                  fmt::format("name one of them: '{}.{}.NAME'", parts_[0], key));
@@ -196,7 +196,7 @@ Value parseArgument(const std::string& text, const SourceLoc& where) {
         const char first = text.empty() ? ' ' : text[0];
         if (first == '[' || first == '{' || first == '"')
             throw Error(where, fmt::format("'{}' is no JSON value: {}", text, error.problems()[0].message),
-                        "write a number, true, false, an array such as '[1, 2]', or a word");
+                        "write a number, true, false, a list such as '[1, 2]', or a word");
         value = Value::makeString(text);
     }
     placeAt(value, where);

@@ -56,7 +56,7 @@ std::vector<std::string> flowNames(const std::vector<Value>& flows) {
     return names;
 }
 
-void addFlow(std::vector<Value>& flows, const Value& flow, Problems& problems) {
+void addFlow(std::vector<Value>& flows, const Value& flow, bool byPriority, Problems& problems) {
     const Value& name = *flow.find("flow");
     if (const auto first = findFlow(flows, name.string())) {
         problems.error(name.where(), fmt::format("a second flow named '{}'", name.string()),
@@ -71,7 +71,7 @@ void addFlow(std::vector<Value>& flows, const Value& flow, Problems& problems) {
     const auto priority = priorityOf(flow);
     const auto later = std::find_if(flows.begin(), flows.end(), [&](const Value& other) {
         const auto otherPriority = priorityOf(other);
-        return priority && otherPriority && *otherPriority > *priority;
+        return byPriority && priority && otherPriority && *otherPriority > *priority;
     });
     flows.insert(later, flow);
 }
@@ -134,6 +134,13 @@ void mergePlugins(Value& document, const Value& plugins) {
     }
 }
 
+/// The first list of flows stands as it is written; a child's flows find their places by priority.
+void mergeFlows(Value& document, const Value& flows, Problems& problems) {
+    const bool first = !document.find("flows");
+    if (first) document.set("flows", Value::makeArray(flows.where()), flows.where());
+    for (const Value& flow : flows.items()) addFlow(treeFlows(document), flow, !first, problems);
+}
+
 }  // namespace
 
 void mergeDocument(PipelineTree& tree, const Value& document, Problems& problems) {
@@ -150,8 +157,7 @@ void mergeDocument(PipelineTree& tree, const Value& document, Problems& problems
         if (member.key == "blocks" && value.isObject()) mergeSection(tree.document, value, "blocks", "block", problems);
         if (member.key == "options" && value.isObject())
             mergeSection(tree.document, value, "options", "option", problems);
-        if (member.key == "flows" && value.isArray())
-            for (const Value& flow : value.items()) addFlow(treeFlows(tree.document), flow, problems);
+        if (member.key == "flows" && value.isArray()) mergeFlows(tree.document, value, problems);
     }
 }
 

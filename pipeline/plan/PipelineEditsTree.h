@@ -23,8 +23,9 @@ std::vector<std::string> flowNames(const std::vector<Value>& flows);
 /// Where a stage gets its name.
 const SourceLoc& stageNameWhere(const Value& stage);
 
-/// Adds a flow: by its priority, else at the end. A second flow of a name is a problem.
-void addFlow(std::vector<Value>& flows, const Value& flow, Problems& problems);
+/// Adds a flow at the end, or with `byPriority` in front of the first flow of a greater one. A second flow of a name is
+/// a problem.
+void addFlow(std::vector<Value>& flows, const Value& flow, bool byPriority, Problems& problems);
 
 /// Objects merge key by key, null removes, all else replaces.
 void mergeKey(Value& object, const std::string& key, const Value& value, const SourceLoc& where);

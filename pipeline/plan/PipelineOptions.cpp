@@ -146,6 +146,14 @@ void forEachChoice(Value& document, Visit visit) {
     }
 }
 
+/// Stage.seed and Stage.params.seed are the same value.
+std::string longPath(const std::string& path) {
+    const std::size_t dot = path.find('.');
+    if (dot == std::string::npos || path.find('.', dot + 1) != std::string::npos) return path;
+    const std::string key = path.substr(dot + 1);
+    return stageKeys().find(key) ? path : path.substr(0, dot) + ".params." + key;
+}
+
 std::string firstPart(const std::string& path) { return path.substr(0, path.find('.')); }
 
 }  // namespace
@@ -204,7 +212,8 @@ void keepOptions(Value& document, const std::vector<OptionDesc>& options, const 
             kept->set("default", option.value, option.value.where());
     forEachChoice(document, [&](auto&, auto&, Value& set) {
         std::erase_if(set.members(), [&](const Member& member) {
-            return std::find(setPaths.begin(), setPaths.end(), member.key) != setPaths.end();
+            return std::any_of(setPaths.begin(), setPaths.end(),
+                               [&](const std::string& path) { return longPath(path) == longPath(member.key); });
         });
     });
 }

@@ -56,7 +56,7 @@ void readClear(const Value& value, const std::string& what, TargetDesc& target, 
     const std::vector<Value>& items = value.items();
     const bool numbers = std::all_of(items.begin(), items.end(), [](const Value& item) { return item.isNumber(); });
     if (items.size() != 4 || !numbers) {
-        problems.error(value.where(), fmt::format("'clear' of {} must be one number or an array of 4 numbers", what),
+        problems.error(value.where(), fmt::format("'clear' of {} must be one number or a list of 4 numbers", what),
                        "write \"clear\": 1 for all channels, or \"clear\": [0, 0, 0, 1]");
         return;
     }

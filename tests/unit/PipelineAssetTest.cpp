@@ -1,0 +1,404 @@
+// Reading pipeline documents: defaults, extends, merging, flow files, edits, options, sets and their precedence.
+#include <functional>
+
+#include "PipelineTestTools.h"
+
+namespace crevice {
+namespace {
+
+using test::AssetFolder;
+using test::document;
+using test::parse;
+using test::stageOf;
+using test::stageOrder;
+
+constexpr const char* kBase = R"({
+  "name": "base", "output": "out",
+  "options": { "fast": { "type": "bool", "default": false } },
+  "targets": { "out": { "format": "RGBA8" }, "aux": { "format": "R16F", "scale": 0.5 } },
+  "flows": [
+    { "flow": "First", "priority": 1, "stages": [ { "stage": "A" }, { "stage": "B", "effect": "b", "material": { "x": 1, "y": 2 } } ] },
+    { "flow": "Last", "priority": 5, "stages": [ { "stage": "C" }, { "stage": "D" } ] } ]
+})";
+
+PipelineDesc load(const AssetFolder& folder, const std::string& name, PipelineRequest request = {}) {
+    request.nameOrPath = name;
+    return loadPipeline(folder.roots(), request);
+}
+
+/// A child of kBase with more keys.
+PipelineDesc child(const std::string& keys, PipelineRequest request = {}) {
+    AssetFolder folder;
+    folder.pipeline("base", kBase);
+    folder.pipeline("child", R"({ "extends": "base", )" + keys + " }");
+    return load(folder, "child", std::move(request));
+}
+
+std::string messageOf(const std::function<void()>& action) {
+    try {
+        action();
+    } catch (const Error& error) {
+        return formatError(error);
+    }
+    return {};
+}
+
+TEST(PipelineAsset, Defaults) {
+    const PipelineDesc desc = parse(document("", ""));
+    EXPECT_EQ(desc.name, "t");
+    const TargetDesc& target = desc.targets.at(0);
+    EXPECT_EQ(target.format, Format::RGBA8);
+    EXPECT_EQ(target.scale, 1.0f);
+    EXPECT_FALSE(target.size.has_value());
+    EXPECT_EQ(target.mips, 1u);
+    EXPECT_EQ(target.layers, 1u);
+    EXPECT_EQ(target.sampler, SamplerKind::PointClamp);
+    EXPECT_EQ(target.clear, glm::vec4(0));
+    const StageDesc& stage = stageOf(desc, "FullscreenStage");
+    EXPECT_TRUE(stage.enabled);
+    EXPECT_FALSE(stage.priority.has_value());
+    EXPECT_TRUE(stage.effect.empty());
+    EXPECT_TRUE(stage.params.isNull());
+    EXPECT_EQ(stage.where.line, 5);
+}
+
+TEST(PipelineAsset, EveryKeyOfATargetArrives) {
+    const PipelineDesc desc = parse(document(
+        R"(, "mips": 3, "layers": 2, "clear": [1, 2, 3, 4], "sampler": "linear-repeat", "help": "h", "size": [7, 9] },
+           "cc_x": { "format": "R8", "binding": 14, "clear": 0.5, "scale": 0.25)",
+        ""));
+    const TargetDesc& out = desc.targets.at(0);
+    EXPECT_EQ(out.mips, 3u);
+    EXPECT_EQ(out.layers, 2u);
+    EXPECT_EQ(out.clear, glm::vec4(1, 2, 3, 4));
+    EXPECT_EQ(out.sampler, SamplerKind::LinearRepeat);
+    EXPECT_EQ(out.help, "h");
+    EXPECT_EQ(out.size, glm::uvec2(7, 9));
+    EXPECT_EQ(desc.targets.at(1).binding, 14u);
+    EXPECT_EQ(desc.targets.at(1).clear, glm::vec4(0.5f));
+    EXPECT_EQ(desc.targets.at(1).scale, 0.25f);
+}
+
+TEST(PipelineAsset, LikeCopiesWhatIsNotGiven) {
+    const PipelineDesc desc = parse(document(
+        R"(, "scale": 0.5 }, "a": { "like": "b", "format": "R8" }, "b": { "like": "out" }, "c": { "like": "b", "size": [2, 3])",
+        ""));
+    EXPECT_EQ(desc.findTarget("a")->format, Format::R8);
+    EXPECT_EQ(desc.findTarget("a")->scale, 0.5f);
+    EXPECT_EQ(desc.findTarget("b")->format, Format::RGBA8);
+    EXPECT_EQ(desc.findTarget("c")->size, glm::uvec2(2, 3));
+}
+
+TEST(PipelineAsset, EveryKeyOfAStageArrives) {
+    const PipelineDesc desc =
+        parse(document(R"(, "mips": 2)",
+                       R"(, "name": "N", "priority": 3, "effect": "e", "defines": { "A": 1 }, "material": { "m": 0.5 },
+        "params": { "p": [1, 2] }, "reads": { "s": "out@1" }, "writes": ["out"],
+        "queues": [ { "phase": "shadow-caster", "sort": "back-to-front" }, {} ])"));
+    const StageDesc& stage = stageOf(desc, "N");
+    EXPECT_EQ(stage.stageClass, "FullscreenStage");
+    EXPECT_EQ(stage.priority, 3);
+    EXPECT_EQ(stage.effect, "e");
+    EXPECT_EQ(stage.defines.toJson(-1), "{\"A\":1}");
+    EXPECT_EQ(stage.material.toJson(-1), "{\"m\":0.5}");
+    EXPECT_EQ(stage.params.toJson(-1), "{\"p\":[1,2]}");
+    EXPECT_EQ(stage.reads.at(0).shaderName, "s");
+    EXPECT_EQ(stage.reads.at(0).target, "out@1");
+    EXPECT_EQ(stage.writes, std::vector<std::string>{"out"});
+    EXPECT_EQ(stage.queues.at(0).phase, "shadow-caster");
+    EXPECT_EQ(stage.queues.at(0).sort, QueueSort::BackToFront);
+    EXPECT_EQ(stage.queues.at(1).phase, "default");
+    EXPECT_EQ(stage.queues.at(1).sort, QueueSort::FrontToBack);
+}
+
+TEST(PipelineExtends, KeepsWhatTheChildDoesNotChange) {
+    const PipelineDesc desc = child(R"("name": "child")");
+    EXPECT_EQ(desc.name, "child");
+    EXPECT_EQ(desc.output, "out");
+    EXPECT_EQ(stageOrder(desc), "First: A B\nLast: C D\n");
+}
+
+TEST(PipelineExtends, ParentTargetsComeFirst) {
+    const PipelineDesc desc = child(R"("targets": { "new": { "format": "R8" } }, "output": "new")");
+    EXPECT_EQ(desc.output, "new");
+    EXPECT_EQ(desc.targets.at(0).name, "out");
+    EXPECT_EQ(desc.targets.at(2).name, "new");
+}
+
+TEST(PipelineExtends, RedefinitionShowsTheFirstPlace) {
+    const std::string message = messageOf([] { child(R"("targets": { "aux": { "format": "R8" } })"); });
+    EXPECT_NE(message.find("target 'aux' is defined a second time"), std::string::npos) << message;
+    EXPECT_NE(message.find("base.pipeline.json:4:46: note: first defined here"), std::string::npos) << message;
+    EXPECT_NE(message.find("\"override\": true"), std::string::npos) << message;
+}
+
+TEST(PipelineExtends, OverrideChangesTheKeysItNames) {
+    const PipelineDesc scaled = child(R"("targets": { "aux": { "override": true, "format": "R8" } })");
+    EXPECT_EQ(scaled.findTarget("aux")->format, Format::R8);
+    EXPECT_EQ(scaled.findTarget("aux")->scale, 0.5f);
+    const PipelineDesc sized = child(R"("targets": { "aux": { "override": true, "size": [3, 4] } })");
+    EXPECT_EQ(sized.findTarget("aux")->size, glm::uvec2(3, 4));
+    EXPECT_EQ(sized.targets.size(), 2u);
+}
+
+TEST(PipelineExtends, FlowsOfAChildGoByPriority) {
+    EXPECT_EQ(stageOrder(child(R"("flows": [ { "flow": "Mid", "priority": 3, "stages": [ { "stage": "M" } ] },
+                                             { "flow": "End", "stages": [ { "stage": "E" } ] } ])")),
+              "First: A B\nMid: M\nLast: C D\nEnd: E\n");
+    const std::string message =
+        messageOf([] { child(R"("flows": [ { "flow": "First", "stages": [ { "stage": "M" } ] } ])"); });
+    EXPECT_NE(message.find("a second flow named 'First'"), std::string::npos) << message;
+}
+
+TEST(PipelineExtends, ByPathNextToTheDocument) {
+    AssetFolder folder;
+    folder.write("mine/base.pipeline.json", kBase);
+    folder.write("mine/deep/a.pipeline.json", R"({ "extends": "../base.pipeline.json" })");
+    folder.write("mine/b.pipeline.json", R"({ "extends": "deep/a.pipeline.json" })");
+    const AssetRoots none({});
+    const PipelineDesc desc = loadPipeline(
+        none, {.nameOrPath = (folder.path() / "mine/b.pipeline.json").string(), .options = {}, .sets = {}});
+    EXPECT_EQ(desc.name, "base");
+    EXPECT_EQ(stageOrder(desc), "First: A B\nLast: C D\n");
+}
+
+TEST(PipelineExtends, StaysInsideTheRootsAndItsOwnFolder) {
+    AssetFolder folder;
+    folder.write("outside.pipeline.json", kBase);
+    folder.write("mine/a.pipeline.json", R"({ "extends": "../outside.pipeline.json" })");
+    const std::string path = (folder.path() / "mine/a.pipeline.json").string();
+    const std::string message =
+        messageOf([&] { loadPipeline(AssetRoots({}), {.nameOrPath = path, .options = {}, .sets = {}}); });
+    EXPECT_NE(message.find("is outside of the asset roots"), std::string::npos) << message;
+    std::filesystem::create_symlink(folder.path() / "outside.pipeline.json", folder.path() / "mine/link.json");
+    folder.write("mine/a.pipeline.json", R"({ "extends": "link.json" })");
+    EXPECT_THROW(loadPipeline(AssetRoots({}), {.nameOrPath = path, .options = {}, .sets = {}}), Error);
+}
+
+TEST(PipelineExtends, MissingParentsAndCircles) {
+    AssetFolder folder;
+    folder.pipeline("base", kBase);
+    folder.pipeline("lost", R"({ "extends": "bsae" })");
+    folder.pipeline("gone", R"({ "extends": "no.json" })");
+    folder.pipeline("a", R"({ "extends": "b" })");
+    folder.pipeline("b", R"({ "extends": "a" })");
+    const std::string lost = messageOf([&] { load(folder, "lost"); });
+    EXPECT_NE(lost.find("no pipeline named 'bsae' to extend"), std::string::npos) << lost;
+    EXPECT_NE(lost.find("did you mean 'base'?"), std::string::npos) << lost;
+    EXPECT_NE(messageOf([&] { load(folder, "gone"); }).find("to extend"), std::string::npos);
+    const std::string circle = messageOf([&] { load(folder, "a"); });
+    EXPECT_NE(circle.find("in a circle: "), std::string::npos) << circle;
+    EXPECT_NE(circle.find("a.pipeline.json → "), std::string::npos) << circle;
+    const std::string unknown = messageOf([&] { load(folder, "bas"); });
+    EXPECT_NE(unknown.find("no pipeline named 'bas'"), std::string::npos) << unknown;
+    EXPECT_NE(messageOf([&] { load(folder, "bas.json"); }).find("no pipeline file 'bas.json'"), std::string::npos);
+}
+
+TEST(PipelineFlowFile, BringsStagesTargetsAndOptions) {
+    AssetFolder folder;
+    folder.pipeline("base", kBase);
+    folder.write("assets/pipelines/flows/ao/gtao.flow.json", R"({
+        "priority": 3, "targets": { "ao": { "format": "R8" } }, "blocks": { "CCAo": { "binding": 20 } },
+        "options": { "slices": { "type": "number", "default": 2, "min": 1, "max": 9 } },
+        "stages": [ { "stage": "ComputeStage", "name": "AoMain", "defines": { "SLICES": "$slices" }, "writes": ["ao"] } ] })");
+    folder.pipeline("child", R"({ "extends": "base",
+        "options": { "ao": { "type": "choice", "default": "gtao", "choices": ["none", "gtao"] } },
+        "flows": [ { "flow": "ao/gtao", "enabled": "$ao == gtao" } ] })");
+    const PipelineDesc on = load(folder, "child", {.nameOrPath = "", .options = {{"slices", "4"}}, .sets = {}});
+    EXPECT_EQ(stageOrder(on), "First: A B\nao/gtao: AoMain\nLast: C D\n");
+    EXPECT_EQ(stageOf(on, "AoMain").defines.find("SLICES")->integer(), 4);
+    EXPECT_NE(on.findTarget("ao"), nullptr);
+    EXPECT_EQ(on.blocks.at(0).binding, 20u);
+    const PipelineDesc off = load(folder, "child", {.nameOrPath = "", .options = {{"ao", "none"}}, .sets = {}});
+    EXPECT_EQ(stageOrder(off), "First: A B\nao/gtao: -AoMain\nLast: C D\n");
+}
+
+TEST(PipelineFlowFile, MistakesInIt) {
+    AssetFolder folder;
+    folder.pipeline("lost",
+                    R"({ "output": "o", "targets": { "o": { "format": "R8" } }, "flows": [ { "flow": "ao/gtoa" } ] })");
+    folder.write("assets/pipelines/flows/ao/gtao.flow.json", R"({ "stagse": [] })");
+    folder.pipeline("bad",
+                    R"({ "output": "o", "targets": { "o": { "format": "R8" } }, "flows": [ { "flow": "ao/gtao" } ] })");
+    const std::string lost = messageOf([&] { load(folder, "lost"); });
+    EXPECT_NE(lost.find("no flow file named 'ao/gtoa'"), std::string::npos) << lost;
+    EXPECT_NE(lost.find("did you mean 'ao/gtao'?"), std::string::npos) << lost;
+    const std::string bad = messageOf([&] { load(folder, "bad"); });
+    EXPECT_NE(bad.find("gtao.flow.json:1:3: error: unknown key 'stagse' in flow file 'ao/gtao'"), std::string::npos)
+        << bad;
+    EXPECT_NE(bad.find("missing key 'stages' in flow file 'ao/gtao'"), std::string::npos) << bad;
+}
+
+TEST(PipelineEdits, InsertBeforeAndAfter) {
+    EXPECT_EQ(
+        stageOrder(child(
+            R"("edits": [ { "insert": { "stage": "X" }, "before": "C" }, { "insert": { "stage": "Y" }, "after": "X" },
+                                             { "insert": { "stage": "Z" }, "after": "B" } ])")),
+        "First: A B Z\nLast: X Y C D\n");
+}
+
+TEST(PipelineEdits, InsertByPriority) {
+    const PriorityLookup lookup = [](const std::string& name) -> std::optional<int> {
+        if (name == "A") return 10;
+        if (name == "C") return 15;
+        if (name == "D") return 19;
+        return name == "X" ? std::optional(15) : std::nullopt;
+    };
+    const auto order = [&](const std::string& edit) {
+        return stageOrder(child(R"("edits": [ )" + edit + " ]",
+                                {.nameOrPath = "", .options = {}, .sets = {}, .defaultPriority = lookup}));
+    };
+    EXPECT_EQ(order(R"({ "insert": { "stage": "X" } })"), "First: A B\nLast: C X D\n") << "behind its equals";
+    EXPECT_EQ(order(R"({ "insert": { "stage": "Q" }, "priority": 12 })"), "First: A B\nLast: Q C D\n");
+    EXPECT_EQ(order(R"({ "insert": { "stage": "Q", "priority": 5 } })"), "First: Q A B\nLast: C D\n");
+    EXPECT_EQ(order(R"({ "insert": { "stage": "Q" }, "priority": 99 })"), "First: A B\nLast: C D Q\n");
+    EXPECT_EQ(
+        order(R"({ "insert": { "stage": "Q" }, "priority": 16 }, { "insert": { "stage": "R" }, "priority": 17 })"),
+        "First: A B\nLast: C Q R D\n");
+}
+
+TEST(PipelineEdits, SetMergesMapsAndReplacesTheRest) {
+    const StageDesc b = stageOf(
+        child(R"("edits": [ { "set": "B", "effect": "c", "material": { "y": 3, "z": 4 }, "enabled": false } ])"), "B");
+    EXPECT_EQ(b.effect, "c");
+    EXPECT_FALSE(b.enabled);
+    EXPECT_EQ(b.material.toJson(-1), R"({"x":1,"y":3,"z":4})");
+    const StageDesc without =
+        stageOf(child(R"("edits": [ { "set": "B", "effect": null, "material": { "y": null } } ])"), "B");
+    EXPECT_EQ(without.effect, "");
+    EXPECT_EQ(without.material.toJson(-1), R"({"x":1})");
+}
+
+TEST(PipelineEdits, ReplaceAndRemove) {
+    EXPECT_EQ(stageOrder(child(R"("edits": [ { "replace": "B", "with": { "stage": "X" } }, { "remove": "A" } ])")),
+              "First: X\nLast: C D\n");
+    EXPECT_EQ(stageOrder(child(R"("edits": [ { "remove": "A" }, { "remove": "B" } ])")), "Last: C D\n");
+    EXPECT_EQ(stageOrder(child(R"("edits": [ { "remove": "First" } ])")), "Last: C D\n");
+}
+
+TEST(PipelineEdits, FlowsCanBeInsertedAndSet) {
+    EXPECT_EQ(
+        stageOrder(child(R"("edits": [ { "insert": { "flow": "M", "stages": [ { "stage": "X" } ] }, "before": "Last" },
+                                             { "set": "First", "enabled": false } ])")),
+        "First: -A -B\nM: X\nLast: C D\n");
+}
+
+TEST(PipelineOptions, ConditionsSwitchStages) {
+    const auto enabled = [](const std::string& condition, std::map<std::string, std::string> options) {
+        const PipelineDesc desc = parse(document("", R"(, "enabled": ")" + condition + '"'),
+                                        {.nameOrPath = "", .options = std::move(options), .sets = {}});
+        return stageOf(desc, "FullscreenStage").enabled;
+    };
+    EXPECT_TRUE(enabled("$on", {}));
+    EXPECT_FALSE(enabled("$on", {{"on", "false"}}));
+    EXPECT_FALSE(enabled("!$on", {}));
+    EXPECT_TRUE(enabled("!$on", {{"on", "false"}}));
+    EXPECT_TRUE(enabled("$mode == slow", {}));
+    EXPECT_FALSE(enabled("$mode == slow", {{"mode", "fast"}}));
+    EXPECT_TRUE(enabled("$mode != slow", {{"mode", "fast"}}));
+    EXPECT_TRUE(enabled("$mode==slow", {}));
+    EXPECT_TRUE(enabled("$on == true", {}));
+    EXPECT_TRUE(enabled("$on != false", {}));
+    EXPECT_TRUE(enabled("$level == 0.5", {}));
+    EXPECT_FALSE(enabled("$level != 0.5", {}));
+}
+
+TEST(PipelineOptions, StandForScalarsAnywhere) {
+    const PipelineDesc desc = parse(
+        document(R"(, "scale": "$level")", R"(, "effect": "$mode", "params": { "list": ["$level", 1], "on": "$on" })"),
+        {.nameOrPath = "", .options = {{"level", "0.25"}}, .sets = {}});
+    EXPECT_EQ(desc.targets.at(0).scale, 0.25f);
+    const StageDesc& stage = stageOf(desc, "FullscreenStage");
+    EXPECT_EQ(stage.effect, "slow");
+    EXPECT_EQ(stage.params.toJson(-1), R"({"list":[0.25,1],"on":true})");
+    EXPECT_EQ(stage.params.find("on")->where().line, 5) << "the place of use";
+    EXPECT_EQ(desc.options.at(1).value.number(), 0.25);
+    EXPECT_EQ(desc.options.at(1).defaultValue.number(), 0.5);
+}
+
+TEST(PipelineOptions, ChoicesSetAndPrecedenceIsDocumentOptionSet) {
+    const std::string keys = R"("options": { "quality": { "type": "choice", "default": "high", "choices": {
+        "high": {}, "fast": { "set": { "B.material.x": 10, "aux.scale": 0.25, "B.effect": "q" } } } } })";
+    const PipelineDesc document = child(keys);
+    EXPECT_EQ(stageOf(document, "B").material.find("x")->integer(), 1);
+    const PipelineDesc option = child(keys, {.nameOrPath = "", .options = {{"quality", "fast"}}, .sets = {}});
+    EXPECT_EQ(stageOf(option, "B").material.toJson(-1), R"({"x":10,"y":2})");
+    EXPECT_EQ(option.findTarget("aux")->scale, 0.25f);
+    EXPECT_EQ(stageOf(option, "B").effect, "q");
+    const PipelineDesc set = child(
+        keys,
+        {.nameOrPath = "", .options = {{"quality", "fast"}}, .sets = {{"B.material.x", "20"}, {"aux.size", "[2, 2]"}}});
+    EXPECT_EQ(stageOf(set, "B").material.find("x")->integer(), 20);
+    EXPECT_EQ(set.findTarget("aux")->size, glm::uvec2(2, 2));
+}
+
+TEST(PipelineOptions, SetsOnRemovedStagesAreDropped) {
+    const PipelineDesc desc = child(
+        R"("options": { "q": { "type": "bool", "default": true, "choices": { "true": { "set": { "B.effect": "z" } } } } },
+                                       "edits": [ { "remove": "B" } ])");
+    EXPECT_EQ(stageOrder(desc), "First: A\nLast: C D\n");
+}
+
+TEST(PipelineSets, ReachEveryKindOfValue) {
+    const auto with = [](const char* path, const char* value) {
+        return child(R"("name": "c")", {.nameOrPath = "", .options = {}, .sets = {{path, value}}});
+    };
+    EXPECT_EQ(stageOf(with("A.params.seed", "3"), "A").params.toJson(-1), R"({"seed":3})");
+    EXPECT_EQ(stageOf(with("A.seed", "3"), "A").params.toJson(-1), R"({"seed":3})");
+    EXPECT_EQ(stageOf(with("A.material.c", "[1, 0.5]"), "A").material.toJson(-1), R"({"c":[1,0.5]})");
+    EXPECT_EQ(stageOf(with("A.material.radius", "auto"), "A").material.toJson(-1), R"({"radius":"auto"})");
+    EXPECT_EQ(stageOf(with("A.material.name", "\"3\""), "A").material.toJson(-1), R"({"name":"3"})");
+    EXPECT_FALSE(stageOf(with("A.enabled", "false"), "A").enabled);
+    EXPECT_FALSE(stageOf(with("A.enabled", "$fast"), "A").enabled);
+    EXPECT_EQ(stageOf(with("A.writes", "[\"aux\"]"), "A").writes, std::vector<std::string>{"aux"});
+    EXPECT_FALSE(stageOf(with("Last.enabled", "false"), "D").enabled);
+    EXPECT_EQ(with("aux.format", "R32F").findTarget("aux")->format, Format::R32F);
+}
+
+TEST(PipelineFlatten, KeepsOptionsAndMarksOrigins) {
+    AssetFolder folder;
+    folder.pipeline("base", kBase);
+    folder.pipeline(
+        "child",
+        "{ \"extends\": \"base\",\n\"edits\": [ { \"set\": \"B\", \"effect\": \"new\",\n\"enabled\": \"$fast\" } ] }");
+    const PipelineRequest request{.nameOrPath = "child", .options = {{"fast", "true"}}, .sets = {{"A.seed", "3"}}};
+    const Value flat = flattenPipeline(folder.roots(), request);
+    const std::string text = flattenText(flat);
+    EXPECT_NE(text.find("\"enabled\": \"$fast\""), std::string::npos) << text;
+    EXPECT_NE(text.find("child.pipeline.json:2\n"), std::string::npos) << text;
+    EXPECT_NE(text.find("child.pipeline.json:3\n"), std::string::npos) << text;
+    EXPECT_NE(text.find("// --set A.seed=3\n"), std::string::npos) << text;
+    EXPECT_EQ(flat.find("options")->find("fast")->find("default")->boolean(), true);
+    EXPECT_EQ(parseJson(text, "flat").toJson(), flat.toJson());
+    const PipelineDesc again = parse(text);
+    EXPECT_TRUE(stageOf(again, "B").enabled);
+    EXPECT_EQ(stageOf(again, "A").params.toJson(-1), R"({"seed":3})");
+}
+
+TEST(PipelineFlatten, ResolvesOptions) {
+    const Value flat = flattenParsed(document(R"(, "scale": "$level")", R"(, "enabled": "$mode == fast")"), "t.json",
+                                     AssetRoots({}), {}, FlattenOptions::Resolve);
+    EXPECT_EQ(flat.find("options"), nullptr);
+    EXPECT_EQ(flat.find("targets")->find("out")->find("scale")->number(), 0.5);
+    EXPECT_EQ(flat.find("flows")->items()[0].find("stages")->items()[0].find("enabled")->boolean(), false);
+}
+
+TEST(PipelineFlatten, AKeptSetWinsOverAChoice) {
+    const std::string text = document("", R"(, "name": "A")", R"(, "blocks": {})");
+    std::string withSets = text;
+    withSets.replace(withSets.find(R"(["slow", "fast"])"), 16,
+                     R"({ "slow": {}, "fast": { "set": { "A.params.n": 1 } } })");
+    const Value flat =
+        flattenParsed(withSets, "t.json", AssetRoots({}), {.nameOrPath = "", .options = {}, .sets = {{"A.n", "2"}}});
+    const PipelineDesc desc = parse(flattenText(flat), {.nameOrPath = "", .options = {{"mode", "fast"}}, .sets = {}});
+    EXPECT_EQ(stageOf(desc, "A").params.toJson(-1), R"({"n":2})");
+}
+
+TEST(PipelineFlatten, ALineBreakInAnArgumentStaysInTheComment) {
+    const Value flat = flattenParsed(document("", R"(, "name": "A")"), "t.json", AssetRoots({}),
+                                     {.nameOrPath = "", .options = {}, .sets = {{"A.effect", "x\ny"}}});
+    EXPECT_EQ(parseJson(flattenText(flat), "flat").toJson(), flat.toJson());
+}
+
+}  // namespace
+}  // namespace crevice
