@@ -1,0 +1,46 @@
+// Where the program's words go: results to stdout, messages to stderr, a progress line on terminals only.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "core/Log.h"
+
+namespace CLI {
+class App;
+}
+
+namespace crevice {
+
+/// -q and -v.
+struct ConsoleOptions {
+    bool quiet = false;
+    bool verbose = false;
+};
+void addConsoleOptions(CLI::App& command, ConsoleOptions& options);
+
+/// One line on stderr that is overwritten; nothing when stderr is no terminal or `quiet`.
+class Progress {
+public:
+    explicit Progress(bool quiet);
+    ~Progress() { clear(); }
+    Progress(const Progress&) = delete;
+    Progress& operator=(const Progress&) = delete;
+    void show(std::string_view text);
+    void clear();
+
+private:
+    bool terminal_ = false;
+    bool shown_ = false;
+};
+
+/// A log that takes the progress line away before it writes. `progress` must outlive it.
+Log makeLog(const ConsoleOptions& options, Progress& progress);
+Log makeLog(const ConsoleOptions& options);
+
+/// A result to stdout, as it is.
+void print(std::string_view text);
+/// False when results could not be written, a reader that closed its pipe excepted.
+bool flushResults();
+
+}  // namespace crevice
