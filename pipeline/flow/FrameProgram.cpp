@@ -74,7 +74,7 @@ void FrameProgram::makeStages(const StageRegistry& registry, const RunInfo& run,
 }
 
 void FrameProgram::nameGlobals() {
-    GlobalNames names;
+    GlobalNames names(desc_.files);
     for (const TargetDesc& target : desc_.targets) names.addTarget(target.name, target.binding, target.where);
     for (const StageProgram& stage : stages_) {
         for (const BlockDeclaration& block : stage.declaration.blocks) names.addBlock(block.name, block.size, {}, stage.desc->where);

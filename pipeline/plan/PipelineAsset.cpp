@@ -30,6 +30,7 @@ PipelineDesc loadChain(const Chain& chain, const PipelineRequest& request, Probl
     applySets(tree, request.sets, problems);
     substituteOptions(tree.document, options, problems);
     PipelineDesc desc = readPipelineTree(tree.document, std::move(options), chain.back().file, problems);
+    for (const PipelineSource& source : chain) desc.files.push_back(source.file);
     problems.throwIfErrors();
     return desc;
 }

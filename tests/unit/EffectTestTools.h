@@ -31,7 +31,6 @@ inline BindingMap contractBindings() {
                       {"CCSsao", {0, 12}},
                       {"cc_ssaoBlurMap", {0, 13}},
                       {"CCSpotShadow", {0, 28}},
-                      {"CCFog", {0, 29}},
                       {"CCPunctualLights", {0, 30}},
                       {"CCLocal", {2, 0}},
                       {"CCForwardLight", {2, 1}}};

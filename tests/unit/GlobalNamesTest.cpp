@@ -35,7 +35,7 @@ TEST(GlobalNames, BuiltInSlotsHaveTheNumbersOfTheContract) {
         {"CCGlobal", GlobalKind::UniformBlock, 0, 48},         {"CCCamera", GlobalKind::UniformBlock, 1, 544},
         {"CCShadow", GlobalKind::UniformBlock, 2, 304},        {"cc_shadowMap", GlobalKind::Sampler2D, 3, 0},
         {"cc_environment", GlobalKind::SamplerCube, 4, 0},     {"cc_spotLightingMap", GlobalKind::Sampler2D, 5, 0},
-        {"CCSpotShadow", GlobalKind::UniformBlock, 28, 96},    {"CCFog", GlobalKind::UniformBlock, 29, 32},
+        {"CCSpotShadow", GlobalKind::UniformBlock, 28, 96},   
         {"CCPunctualLights", GlobalKind::StorageBuffer, 30, 0}};
     ASSERT_EQ(layout.slots().size(), expected.size());
     for (std::size_t i = 0; i < expected.size(); ++i) {
@@ -198,7 +198,7 @@ TEST(GlobalNames, BadPinsAreRefused) {
         {"cc_a", 2, "'cc_a' and 'CCShadow' both have binding 2 of set 0"},
         {"cc_a", 3, "'cc_a' and 'cc_shadowMap' both have binding 3 of set 0"},
         {"cc_a", 6, "'cc_a' cannot have binding 6 of set 0: it is kept for 'cc_gbuffer_albedoMap'"},
-        {"cc_a", 29, "'cc_a' and 'CCFog' both have binding 29 of set 0"},
+        {"cc_a", 28, "'cc_a' and 'CCSpotShadow' both have binding 28 of set 0"},
         {"cc_a", 64, "binding 64 of 'cc_a' is too large"},
         {"cc_gbuffer_albedoMap", 12, "'cc_gbuffer_albedoMap' has the number 6 in set 0 and cannot be pinned to 12"},
         {"cc_shadowMap", 12, "'cc_shadowMap' has the number 3 in set 0 and cannot be pinned to 12"},
