@@ -9,9 +9,24 @@ class App;
 
 namespace crevice {
 
+inline constexpr const char* kVersion = "0.1.0";  // as in CMakeLists.txt; a test compares
+
 /// Set by the subcommand that was parsed; returns the exit code.
 using Action = std::function<int()>;
 
 void addRenderCommand(CLI::App& program, Action& action);
+void addValidateCommand(CLI::App& program, Action& action);
+void addFlattenCommand(CLI::App& program, Action& action);
+void addPlanCommand(CLI::App& program, Action& action);
+void addStagesCommand(CLI::App& program, Action& action);
+void addEffectsCommand(CLI::App& program, Action& action);
+void addSchemaCommand(CLI::App& program, Action& action);
+void addInfoCommand(CLI::App& program, Action& action);
+void addCompareCommand(CLI::App& program, Action& action);
+
+// Below `effects`.
+void addEffectsListCommand(CLI::App& effects, Action& action);
+void addEffectsShowCommand(CLI::App& effects, Action& action);
+void addEffectsCompileCommand(CLI::App& effects, Action& action);
 
 }  // namespace crevice

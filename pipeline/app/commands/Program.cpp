@@ -17,16 +17,25 @@ namespace crevice {
 namespace {
 
 constexpr int kDone = 0, kFailed = 1, kBadInput = 2;
-constexpr const char* kVersion = "crevice 0.1.0";  // as in CMakeLists.txt; a test compares
 
 void reportError(const std::string& text) { std::fprintf(stderr, "%s\n", text.c_str()); }
 
-void addCommands(CLI::App& program, Action& action) { addRenderCommand(program, action); }
+void addCommands(CLI::App& program, Action& action) {
+    addRenderCommand(program, action);
+    addValidateCommand(program, action);
+    addFlattenCommand(program, action);
+    addPlanCommand(program, action);
+    addStagesCommand(program, action);
+    addEffectsCommand(program, action);
+    addSchemaCommand(program, action);
+    addInfoCommand(program, action);
+    addCompareCommand(program, action);
+}
 
 int parseAndRun(int argc, char** argv) {
     CLI::App program("Render pipelines written as JSON documents", "crevice");
     Action action;
-    program.set_version_flag("--version", kVersion, "Print the version");
+    program.set_version_flag("--version", std::string("crevice ") + kVersion, "Print the version");
     program.footer("`crevice COMMAND --help` tells more and shows examples.");
     addCommands(program, action);
     try {

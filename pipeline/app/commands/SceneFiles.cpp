@@ -7,6 +7,7 @@
 
 #include "core/Error.h"
 #include "core/Text.h"
+#include "scene/Primitives.h"
 #include "scene/SceneAsset.h"
 
 namespace crevice {
@@ -35,6 +36,16 @@ SceneFile findScene(const AssetRoots& roots, const std::string& argument) {
 
 Scene loadSceneFile(const SceneFile& file, const AssetRoots& roots, const Log& log, bool allowOutside) {
     return loadScene(file.path, {.log = log, .allowedRoots = roots.roots(), .allowOutside = allowOutside});
+}
+
+Scene makeSampleScene() {
+    Scene scene;
+    scene.name = "sample";
+    scene.meshes.push_back(makeBox({1, 1, 1}));
+    scene.materials.emplace_back();
+    scene.instances.emplace_back();
+    addDefaultLight(scene);
+    return scene;
 }
 
 }  // namespace crevice

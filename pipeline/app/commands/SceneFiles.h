@@ -19,4 +19,8 @@ struct SceneFile {
 SceneFile findScene(const AssetRoots& roots, const std::string& argument);
 Scene loadSceneFile(const SceneFile& file, const AssetRoots& roots, const Log& log, bool allowOutside = false);
 
+/// A box with a plain material: what pipelines are checked with when no scene is given, so that the effects that draw
+/// scenes are compiled too.
+Scene makeSampleScene();
+
 }  // namespace crevice

@@ -1,0 +1,18 @@
+// Which macro values an effect is compiled with: defaults, given ones, or every combination.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "effect/Defines.h"
+
+namespace crevice {
+
+/// Above this number of combinations, each value is tried alone instead, the other macros at their defaults.
+inline constexpr std::size_t kMaxCombinations = 128;
+
+/// Values of the macros to compile a pass with; those in `fixed` keep their value. Bools take 0 and 1, numbers both
+/// ends of their range, strings each of their options.
+std::vector<Defines> enumerateVariants(const std::vector<DefineInfo>& infos, const Defines& fixed);
+
+}  // namespace crevice
