@@ -9,8 +9,6 @@ class App;
 
 namespace crevice {
 
-inline constexpr const char* kVersion = "0.1.0";  // as in CMakeLists.txt; a test compares
-
 /// Set by the subcommand that was parsed; returns the exit code.
 using Action = std::function<int()>;
 

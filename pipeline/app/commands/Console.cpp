@@ -3,9 +3,11 @@
 
 #include <cerrno>
 #include <cstdio>
+#include <cstring>
 
 #include <unistd.h>
 
+#include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
 #include "core/Error.h"
@@ -18,6 +20,11 @@ LogLevel detailOf(const ConsoleOptions& options) {
         throw Error("-q and -v contradict each other", "give one: -q shows errors only, -v tells more");
     }
     return options.quiet ? LogLevel::Error : options.verbose ? LogLevel::Verbose : LogLevel::Note;
+}
+
+void checkWrite(int reason) {
+    if (reason == EPIPE) return;
+    throw RenderError(fmt::format("the results cannot be written to the standard output: {}", std::strerror(reason)));
 }
 
 }  // namespace
@@ -52,12 +59,12 @@ Log makeLog(const ConsoleOptions& options, Progress& progress) {
 
 Log makeLog(const ConsoleOptions& options) { return Log(detailOf(options)); }
 
-void print(std::string_view text) { std::fwrite(text.data(), 1, text.size(), stdout); }
+void print(std::string_view text) {
+    if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size()) checkWrite(errno);
+}
 
-bool flushResults() {
-    errno = 0;
-    const bool failed = std::fflush(stdout) != 0 || std::ferror(stdout) != 0;
-    return !failed || errno == EPIPE || errno == 0;
+void flushResults() {
+    if (std::fflush(stdout) != 0) checkWrite(errno);
 }
 
 }  // namespace crevice

@@ -38,9 +38,9 @@ private:
 Log makeLog(const ConsoleOptions& options, Progress& progress);
 Log makeLog(const ConsoleOptions& options);
 
-/// A result to stdout, as it is.
+/// A result to stdout, as it is. Throws RenderError when it cannot be written; a reader that closed its pipe has read
+/// enough.
 void print(std::string_view text);
-/// False when results could not be written, a reader that closed its pipe excepted.
-bool flushResults();
+void flushResults();
 
 }  // namespace crevice

@@ -9,12 +9,12 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
-#include "../stages/Builtin.h"
 #include "app/commands/ArgumentText.h"
 #include "core/Params.h"
 #include "core/Text.h"
 #include "flow/RenderStage.h"
 #include "plan/PipelineAssetFiles.h"
+#include "stages/Builtin.h"
 
 namespace crevice {
 namespace {

@@ -35,22 +35,22 @@ void addCommands(CLI::App& program, Action& action) {
 int parseAndRun(int argc, char** argv) {
     CLI::App program("Render pipelines written as JSON documents", "crevice");
     Action action;
-    program.set_version_flag("--version", std::string("crevice ") + kVersion, "Print the version");
+    program.set_version_flag("--version", "crevice " CREVICE_VERSION, "Print the version");
     program.footer("`crevice COMMAND --help` tells more and shows examples.");
     addCommands(program, action);
     try {
         program.parse(prepareArguments(argc, argv));
     } catch (const CLI::CallForHelp&) {
-        print(program.help());
-        return kDone;
+        action = [&program] { return print(program.help()), kDone; };
     } catch (const CLI::CallForVersion& version) {
-        print(std::string(version.what()) + "\n");
-        return kDone;
+        action = [text = std::string(version.what())] { return print(text + "\n"), kDone; };
     } catch (const CLI::Error& error) {
         throw explainUsage(program, error);
     }
     if (!action) throw Error("no subcommand given", "crevice --help lists them");
-    return action();
+    const int code = action();
+    flushResults();
+    return code;
 }
 
 int runCatching(int argc, char** argv) {
@@ -75,10 +75,7 @@ int runCatching(int argc, char** argv) {
 
 int runProgram(int argc, char** argv) {
     std::signal(SIGPIPE, SIG_IGN);  // `crevice plan … | head` is no failure
-    const int code = runCatching(argc, argv);
-    if (flushResults()) return code;
-    reportError("error: the results cannot be written to the standard output");
-    return code == kDone ? kFailed : code;
+    return runCatching(argc, argv);
 }
 
 }  // namespace crevice

@@ -102,7 +102,7 @@ void checkNoFileTwice(const RenderJob& job, const std::string& timings) {
 
 void addRenderOptions(CLI::App& command, RenderOptions& options) {
     command.add_option("scene", options.scenes, "Files (.gltf, .glb, .scene.json) or names of shipped scenes")
-        ->type_name("SCENE...");
+        ->type_name("SCENE");
     command.add_option("-p,--pipeline", options.pipeline, "Name of a pipeline or path of a .json file")
         ->type_name("PIPELINE")
         ->capture_default_str();

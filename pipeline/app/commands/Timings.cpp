@@ -1,6 +1,8 @@
 // Milliseconds everywhere.
 #include "app/commands/Timings.h"
 
+#include <cmath>
+
 #include <nlohmann/json.hpp>
 
 namespace crevice {
@@ -8,12 +10,17 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+/// To nanoseconds: more is noise.
+double tidy(double milliseconds) { return std::round(milliseconds * 1e6) / 1e6; }
+
 Json sceneJson(const SceneTimings& scene) {
     Json stages = Json::array();
     for (const StageTime& stage : scene.stages) {
-        stages.push_back({{"flow", stage.flow}, {"stage", stage.stage}, {"ms", stage.milliseconds}});
+        stages.push_back({{"flow", stage.flow}, {"stage", stage.stage}, {"ms", tidy(stage.milliseconds)}});
     }
-    return {{"scene", scene.scene}, {"frame_ms", scene.frameMs}, {"stages", stages}, {"frames_ms", scene.framesMs}};
+    Json frames = Json::array();
+    for (const double frame : scene.framesMs) frames.push_back(tidy(frame));
+    return {{"scene", scene.scene}, {"frame_ms", tidy(scene.frameMs)}, {"stages", stages}, {"frames_ms", frames}};
 }
 
 }  // namespace
@@ -33,9 +40,9 @@ std::string timingsJson(const Timings& timings) {
         for (const SceneTimings& scene : timings.scenes) json["scenes"].push_back(sceneJson(scene));
     }
     json["pixels"] = timings.pixels;
-    json["process"] = {{"device_ms", timings.deviceMs},   {"load_ms", timings.loadMs},
-                       {"compile_ms", timings.compileMs}, {"prepare_ms", timings.prepareMs},
-                       {"render_ms", timings.renderMs},   {"write_ms", timings.writeMs}};
+    json["process"] = {{"device_ms", tidy(timings.deviceMs)},   {"load_ms", tidy(timings.loadMs)},
+                       {"compile_ms", tidy(timings.compileMs)}, {"prepare_ms", tidy(timings.prepareMs)},
+                       {"render_ms", tidy(timings.renderMs)},   {"write_ms", tidy(timings.writeMs)}};
     return json.dump(2) + "\n";
 }
 
