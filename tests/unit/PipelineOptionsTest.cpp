@@ -1,6 +1,4 @@
 // Options, sets and flattening of pipeline documents, and their precedence.
-#include <functional>
-
 #include "PipelineTestTools.h"
 
 namespace crevice {
@@ -32,15 +30,6 @@ PipelineDesc child(const std::string& keys, PipelineRequest request = {}) {
     folder.pipeline("base", kBase);
     folder.pipeline("child", R"({ "extends": "base", )" + keys + " }");
     return load(folder, "child", std::move(request));
-}
-
-std::string messageOf(const std::function<void()>& action) {
-    try {
-        action();
-    } catch (const Error& error) {
-        return formatError(error);
-    }
-    return {};
 }
 
 TEST(PipelineOptions, ConditionsSwitchStages) {
