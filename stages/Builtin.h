@@ -1,4 +1,5 @@
-// The stages that come with Crevice, registered by an explicit list: linkers drop self-registration from static libraries.
+// The stages that come with Crevice, registered by an explicit list: linkers drop self-registration from static
+// libraries.
 #pragma once
 
 namespace crevice {

@@ -19,7 +19,8 @@ private:
 }  // namespace
 
 void registerComputeStage(StageRegistry& registry) {
-    registry.add<ComputeStage>("ComputeStage", {.priority = {}, .help = "Data-only: one compute dispatch of an effect."});
+    registry.add<ComputeStage>("ComputeStage",
+                               {.priority = {}, .help = "Data-only: one compute dispatch of an effect."});
 }
 
 }  // namespace crevice

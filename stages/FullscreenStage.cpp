@@ -19,7 +19,8 @@ private:
 }  // namespace
 
 void registerFullscreenStage(StageRegistry& registry) {
-    registry.add<FullscreenStage>("FullscreenStage", {.priority = {}, .help = "Data-only: one full-screen draw of an effect."});
+    registry.add<FullscreenStage>("FullscreenStage",
+                                  {.priority = {}, .help = "Data-only: one full-screen draw of an effect."});
 }
 
 }  // namespace crevice

@@ -24,7 +24,8 @@ private:
 }  // namespace
 
 void registerGbufferStage(StageRegistry& registry) {
-    registry.add<GbufferStage>("GbufferStage", {.priority = 10, .help = "Opaque geometry into the G-buffer maps and viewDepth."});
+    registry.add<GbufferStage>("GbufferStage",
+                               {.priority = 10, .help = "Opaque geometry into the G-buffer maps and viewDepth."});
 }
 
 }  // namespace crevice

@@ -19,7 +19,8 @@ private:
 }  // namespace
 
 void registerPostProcessStage(StageRegistry& registry) {
-    registry.add<PostProcessStage>("PostProcessStage", {.priority = 19, .help = "Exposure, tone mapping, sRGB; or FXAA."});
+    registry.add<PostProcessStage>("PostProcessStage",
+                                   {.priority = 19, .help = "Exposure, tone mapping, sRGB; or FXAA."});
 }
 
 }  // namespace crevice

@@ -15,10 +15,12 @@ constexpr const char* kPcfNames[] = {"1x1", "3x3", "5x5"};
 class ShadowStage final : public RenderStage {
 public:
     void params(ParamVisitor& v) override {
-        v.choice("light", light_, kLightNames, {.help = "Which light: the scene's first directional or first spot light that casts shadows."});
+        v.choice("light", light_, kLightNames,
+                 {.help = "Which light: the scene's first directional or first spot light that casts shadows."});
         v.choice("pcf", pcf_, kPcfNames, {.help = "Percentage-closer filter: texels averaged by the lighting."});
         v.field("bias", bias_, {.min = 0, .max = 0.1, .help = "Depth bias, as a share of the light's depth range."});
-        v.field("normalBias", normalBias_, {.min = 0, .max = 10, .unit = "texels", .help = "Shift along the normal before the look-up."});
+        v.field("normalBias", normalBias_,
+                {.min = 0, .max = 10, .unit = "texels", .help = "Shift along the normal before the look-up."});
     }
     void declare(StageIo& io) override {
         io.depth(light_ == kSpot ? "cc_spotLightingMap" : "cc_shadowMap", DepthUse::Write);
@@ -53,7 +55,8 @@ private:
         if (light_ == kSpot) {
             SpotShadowBlock block;
             block.viewProj = viewProj;
-            block.info = {bias_, static_cast<float>(pcf_), 1.0f / size.x, view_ ? static_cast<float>(view_->punctualIndex) : -1.0f};
+            block.info = {bias_, static_cast<float>(pcf_), 1.0f / size.x,
+                          view_ ? static_cast<float>(view_->punctualIndex) : -1.0f};
             frame.upload(spot_, block);
             return;
         }

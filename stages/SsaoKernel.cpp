@@ -40,7 +40,8 @@ glm::vec3 articleDirection(Pcg32& random) {
     return glm::vec3(x, y, z) / std::sqrt(x * x + y * y + z * z);
 }
 
-/// Malley's method: uniform on the disc, lifted to the hemisphere, is cosine-weighted. `kMinZ` keeps samples off the plane.
+/// Malley's method: uniform on the disc, lifted to the hemisphere, is cosine-weighted. `kMinZ` keeps samples off the
+/// plane.
 glm::vec3 cosineDirection(float u, float v) {
     constexpr float kMinZ = 0.05f;
     const float r = std::sqrt(u * (1.0f - kMinZ * kMinZ));

@@ -1,11 +1,12 @@
-// Ambient occlusion from the G-buffer: one full-screen draw into cc_ssaoMap. Which form it has is the effect's business.
+// Ambient occlusion from the G-buffer: one full-screen draw into cc_ssaoMap. Which form it has is the effect's
+// business.
 #include "SsaoKernel.h"
 #include "flow/RenderStage.h"
 
 namespace crevice {
 namespace {
 
-struct SsaoBlock {  // Mirrors `CCSsao` in effects/chunks/ssao-constant.chunk.
+struct SsaoBlock {         // Mirrors `CCSsao` in effects/chunks/ssao-constant.chunk.
     glm::vec4 nearFar{0};  ///< near, far, 1/far, 1/near
     glm::vec4 samples[kSsaoMaxSamples]{};
 };
@@ -14,16 +15,20 @@ static_assert(sizeof(SsaoBlock) == 1040);
 enum Bake { kBakeAuto, kBakeOn, kBakeOff };
 constexpr const char* kBakeNames[] = {"auto", "on", "off"};
 constexpr const char* kKernelNames[] = {"article", "stratified"};
-/// Pixels x samples of a run from which constants in the shader repay the longer compile (about half a frame at 1280x720).
+/// Pixels x samples of a run from which constants in the shader repay the longer compile (about half a frame at
+/// 1280x720).
 constexpr std::uint64_t kBakeFrom = 30'000'000;
 
 class SsaoStage final : public RenderStage {
 public:
     void params(ParamVisitor& v) override {
         v.field("seed", seed_, {.help = "Kernel seed. The same seed renders the same picture."});
-        v.field("samples", samples_, {.min = 1, .max = kSsaoMaxSamples, .help = "Kernel size; the radius ladder is made for it."});
-        v.choice("kernel", kernel_, kKernelNames, {.help = "Directions: the article's, or cosine-weighted and stratified."});
-        v.choice("bake", bake_, kBakeNames, {.help = "Kernel as shader constants: the same picture, faster over many pixels."});
+        v.field("samples", samples_,
+                {.min = 1, .max = kSsaoMaxSamples, .help = "Kernel size; the radius ladder is made for it."});
+        v.choice("kernel", kernel_, kKernelNames,
+                 {.help = "Directions: the article's, or cosine-weighted and stratified."});
+        v.choice("bake", bake_, kBakeNames,
+                 {.help = "Kernel as shader constants: the same picture, faster over many pixels."});
     }
     void declare(StageIo& io) override {
         io.color("cc_ssaoMap");

@@ -38,7 +38,10 @@ void putBackground(Image& image, const glm::vec4& background) {
 
 Renderer::Renderer(RendererOptions options)
     : options_(std::move(options)),
-      device_(DeviceOptions{.log = options_.log, .device = options_.device, .validate = options_.validate, .syncValidation = options_.validate}),
+      device_(DeviceOptions{.log = options_.log,
+                            .device = options_.device,
+                            .validate = options_.validate,
+                            .syncValidation = options_.validate}),
       effects_(options_.roots, options_.log, {.useDiskCache = options_.useCache}) {
     registerBuiltinStages(registry_);
 }
@@ -61,7 +64,8 @@ void Renderer::setScene(Scene scene) {
     scene_ = std::move(scene);
     hasScene_ = true;
     if (options_.defaultLight && addDefaultLight(scene_)) {
-        options_.log.note("the scene has no lights: a key light and ambient light were added (--no-default-light leaves it dark)");
+        options_.log.note(
+            "the scene has no lights: a key light and ambient light were added (--no-default-light leaves it dark)");
     }
     if (pipeline_) prepare();
 }
@@ -74,7 +78,9 @@ void Renderer::prepare() {
 Camera Renderer::cameraFor(const View& view) const {
     const float aspect = static_cast<float>(view.width) / static_cast<float>(view.height);
     const Aabb bounds = scene_.bounds();
-    Camera camera = view.camera ? *view.camera : !scene_.cameras.empty() ? scene_.cameras.front() : frameBounds(bounds, kDefaultFovY, aspect);
+    Camera camera = view.camera               ? *view.camera
+                    : !scene_.cameras.empty() ? scene_.cameras.front()
+                                              : frameBounds(bounds, kDefaultFovY, aspect);
     fitNearFar(camera, bounds);
     return camera;
 }

@@ -1,4 +1,5 @@
-// The library's front door: a device, a pipeline document, a scene → images. The program is a client of it without private powers.
+// The library's front door: a device, a pipeline document, a scene → images. The program is a client of it without
+// private powers.
 //
 //   crevice::Renderer renderer({});
 //   renderer.load({.nameOrPath = "ssao-deferred"});
@@ -26,10 +27,10 @@
 namespace crevice {
 
 struct RendererOptions {
-    std::string device{};         ///< Index or part of a name; empty = the best.
-    bool validate = false;        ///< Vulkan validation, synchronization included.
-    bool useCache = true;         ///< SPIR-V on disk.
-    bool defaultLight = true;     ///< A scene without lights gets a key light and ambient, with a note.
+    std::string device{};      ///< Index or part of a name; empty = the best.
+    bool validate = false;     ///< Vulkan validation, synchronization included.
+    bool useCache = true;      ///< SPIR-V on disk.
+    bool defaultLight = true;  ///< A scene without lights gets a key light and ambient, with a note.
     AssetRoots roots = AssetRoots::standard();
     Log log{};
 };
@@ -37,10 +38,10 @@ struct RendererOptions {
 /// One picture to make.
 struct View {
     std::uint32_t width = 1280, height = 720;
-    std::optional<Camera> camera{};               ///< Nothing = the scene's first, else one that frames the scene.
-    glm::vec4 background{0, 0, 0, 1};             ///< sRGB, straight alpha; shows where nothing was drawn.
+    std::optional<Camera> camera{};    ///< Nothing = the scene's first, else one that frames the scene.
+    glm::vec4 background{0, 0, 0, 1};  ///< sRGB, straight alpha; shows where nothing was drawn.
     std::uint32_t frameIndex = 0;
-    std::vector<std::string> keep{};              ///< Targets that target() can return afterwards.
+    std::vector<std::string> keep{};  ///< Targets that target() can return afterwards.
 };
 
 class Renderer {

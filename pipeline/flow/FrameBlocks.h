@@ -1,4 +1,5 @@
-// The blocks of set 0 that every frame fills, byte for byte as the chunks in effects/chunks declare them (std140 / std430).
+// The blocks of set 0 that every frame fills, byte for byte as the chunks in effects/chunks declare them (std140 /
+// std430).
 #pragma once
 
 #include <cstdint>
@@ -18,16 +19,16 @@ static_assert(sizeof(GlobalBlock) == 48);
 /// Mirrors `CCCamera` in cc-camera.chunk (profile v33).
 struct CameraBlock {
     glm::mat4 view{1}, viewInv{1}, proj{1}, projInv{1}, viewProj{1}, viewProjInv{1};
-    glm::vec4 position{0};     ///< w = 0: Vulkan's sign convention
+    glm::vec4 position{0};  ///< w = 0: Vulkan's sign convention
     glm::vec4 screenScale{1};
     glm::vec4 exposure{1, 1, 0, 1};  ///< exposure, 1/exposure, is HDR, 1/standard exposure
-    glm::vec4 mainLitDir{0};   ///< the way the light travels; w = 1: casts a shadow
-    glm::vec4 mainLitColor{0}; ///< rgb linear, w = illuminance
+    glm::vec4 mainLitDir{0};         ///< the way the light travels; w = 1: casts a shadow
+    glm::vec4 mainLitColor{0};       ///< rgb linear, w = illuminance
     glm::vec4 ambientSky{0};
     glm::vec4 ambientGround{0};
     glm::vec4 fogColor{0};
-    glm::vec4 fogBase{0};      ///< start, end, density
-    glm::vec4 fogAdd{0};       ///< w: 0 none, 1 linear, 2 exp, 3 exp²
+    glm::vec4 fogBase{0};  ///< start, end, density
+    glm::vec4 fogAdd{0};   ///< w: 0 none, 1 linear, 2 exp, 3 exp²
 };
 static_assert(sizeof(CameraBlock) == 544);
 
@@ -35,9 +36,9 @@ static_assert(sizeof(CameraBlock) == 544);
 struct ShadowBlock {
     glm::mat4 lightPlaneProj{1}, lightView{1}, lightViewProj{1};
     glm::vec4 invProjDepthInfo{0}, projDepthInfo{0}, projInfo{0};
-    glm::vec4 nearFar{0};      ///< near, far, 0, 1 - saturation
-    glm::vec4 sizeBias{0};     ///< width, height, pcf, bias
-    glm::vec4 typeNormal{0};   ///< light type (0 directional, 1 spot), packing, normal bias, 1 = the map is valid
+    glm::vec4 nearFar{0};     ///< near, far, 0, 1 - saturation
+    glm::vec4 sizeBias{0};    ///< width, height, pcf, bias
+    glm::vec4 typeNormal{0};  ///< light type (0 directional, 1 spot), packing, normal bias, 1 = the map is valid
     glm::vec4 color{0};
 };
 static_assert(sizeof(ShadowBlock) == 304);

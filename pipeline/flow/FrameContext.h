@@ -15,16 +15,18 @@ class Commands;
 class StageExecution;
 
 /// Numbers of work groups of a dispatch.
-struct Groups { std::uint32_t x = 1, y = 1, z = 1; };
+struct Groups {
+    std::uint32_t x = 1, y = 1, z = 1;
+};
 
 /// One camera's frame as the pipeline sees it.
 struct FrameView {
-    Camera camera;                    ///< near and far are filled in.
-    glm::uvec2 extent{1280, 720};     ///< Pixels of the frame.
+    Camera camera;                 ///< near and far are filled in.
+    glm::uvec2 extent{1280, 720};  ///< Pixels of the frame.
     glm::mat4 projection{1};
-    float exposure = 1;               ///< Factor from scene luminance to 1.0 before tone mapping.
+    float exposure = 1;  ///< Factor from scene luminance to 1.0 before tone mapping.
     std::uint32_t frameIndex = 0;
-    float time = 0, deltaTime = 0;    ///< Seconds.
+    float time = 0, deltaTime = 0;  ///< Seconds.
 };
 
 class FrameContext {
@@ -40,12 +42,15 @@ public:
 
     /// Fills a block of set 0 for the draws recorded after it.
     template <class T>
-    void upload(BlockId block, const T& data) { uploadBytes(block, std::as_bytes(std::span(&data, 1))); }
+    void upload(BlockId block, const T& data) {
+        uploadBytes(block, std::as_bytes(std::span(&data, 1)));
+    }
 
     void draw(DrawId draw);
     /// Draws the queue as the camera sees it.
     void drawQueue(QueueId queue);
-    /// Draws the queue as another viewer sees it (a light): culled and sorted by `viewProjection`. The view is for sorting.
+    /// Draws the queue as another viewer sees it (a light): culled and sorted by `viewProjection`. The view is for
+    /// sorting.
     void drawQueue(QueueId queue, const glm::mat4& view, const glm::mat4& viewProjection);
     void dispatch(DrawId draw, Groups groups);
     /// Work groups that cover extent() with the effect's own local size.

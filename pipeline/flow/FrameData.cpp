@@ -78,8 +78,8 @@ std::vector<std::byte> punctualLights(const Scene& scene) {
 float exposureFromEv(float ev) { return 1.0f / (1.2f * std::exp2(ev)); }
 
 float autoExposureEv(const Scene& scene) {
-    // Illuminance of a surface that faces the lights: directional light at 45 degrees, hemispheric ambient from both sides,
-    // point and spot lights from a quarter of the scene's diagonal.
+    // Illuminance of a surface that faces the lights: directional light at 45 degrees, hemispheric ambient from both
+    // sides, point and spot lights from a quarter of the scene's diagonal.
     const float reach = std::max(0.25f * scene.bounds().diagonal(), 1e-6f);
     float illuminance = 0;
     for (const Light& light : scene.lights) {

@@ -20,8 +20,8 @@ std::vector<std::byte> punctualLights(const Scene& scene);
 /// Factor from scene luminance to 1.0 for an exposure value at ISO 100: 1 / (1.2 · 2^EV)
 /// (S. Lagarde, C. de Rousiers: Moving Frostbite to PBR, 2014, section 5.1).
 float exposureFromEv(float ev);
-/// The EV that brings a white diffuse surface under the scene's lights to 0.8: from the light sources alone, so that it is the
-/// same for every camera and every run. See docs/scenes.md.
+/// The EV that brings a white diffuse surface under the scene's lights to 0.8: from the light sources alone, so that it
+/// is the same for every camera and every run. See docs/scenes.md.
 float autoExposureEv(const Scene& scene);
 
 }  // namespace crevice

@@ -32,14 +32,16 @@ void collect(Problems& problems, Step&& step) {
 void readParams(StageProgram& program, Problems& problems) {
     const StageDesc& desc = *program.desc;
     const Value empty = Value::makeObject(desc.where);
-    ParamReader reader(desc.params.isNull() ? empty : desc.params, fmt::format("params of stage '{}'", desc.name), problems);
+    ParamReader reader(desc.params.isNull() ? empty : desc.params, fmt::format("params of stage '{}'", desc.name),
+                       problems);
     program.stage->params(reader);
     reader.finish();
 }
 
 }  // namespace
 
-FrameProgram::FrameProgram(PipelineDesc desc, const StageRegistry& registry, EffectLibrary& library, const Log& log, RunInfo run)
+FrameProgram::FrameProgram(PipelineDesc desc, const StageRegistry& registry, EffectLibrary& library, const Log& log,
+                           RunInfo run)
     : desc_(std::move(desc)), library_(library), log_(log) {
     Problems problems;
     makeStages(registry, run, problems);
@@ -56,7 +58,8 @@ FrameProgram::FrameProgram(PipelineDesc desc, const StageRegistry& registry, Eff
 FrameProgram::~FrameProgram() = default;
 
 void FrameProgram::makeStages(const StageRegistry& registry, const RunInfo& run, Problems& problems) {
-    checkPriorities(desc_, [&](const std::string& name) { return registry.priorityOf(name); }, problems);
+    checkPriorities(
+        desc_, [&](const std::string& name) { return registry.priorityOf(name); }, problems);
     for (const FlowDesc& flow : desc_.flows) {
         for (const StageDesc& desc : flow.stages) {
             StageProgram program;
@@ -77,7 +80,8 @@ void FrameProgram::nameGlobals() {
     GlobalNames names(desc_.files);
     for (const TargetDesc& target : desc_.targets) names.addTarget(target.name, target.binding, target.where);
     for (const StageProgram& stage : stages_) {
-        for (const BlockDeclaration& block : stage.declaration.blocks) names.addBlock(block.name, block.size, {}, stage.desc->where);
+        for (const BlockDeclaration& block : stage.declaration.blocks)
+            names.addBlock(block.name, block.size, {}, stage.desc->where);
     }
     for (const BlockPin& pin : desc_.blocks) {
         if (pin.binding) names.pinBlock(pin.name, *pin.binding, pin.where);
@@ -105,8 +109,13 @@ void FrameProgram::prepare(const Scene* scene) {
 
 StageUse FrameProgram::useOf(const StageProgram& stage, Problems& problems) const {
     const StageDesc& desc = *stage.desc;
-    StageUse use{.stage = desc.name, .flow = stage.flow, .enabled = desc.enabled, .compute = false, .writes = stage.declaration.writes,
-                 .reads = {}, .where = desc.where};
+    StageUse use{.stage = desc.name,
+                 .flow = stage.flow,
+                 .enabled = desc.enabled,
+                 .compute = false,
+                 .writes = stage.declaration.writes,
+                 .reads = {},
+                 .where = desc.where};
     const auto addReads = [&](const EffectVariant& variant, const std::vector<Wire>& wires) {
         for (TargetRead& read : findReads(desc_, variant, wires)) {
             const bool known = std::any_of(use.reads.begin(), use.reads.end(), [&](const TargetRead& other) {
@@ -116,7 +125,8 @@ StageUse FrameProgram::useOf(const StageProgram& stage, Problems& problems) cons
         }
         const std::vector<BlendTarget>& targets = variant.pass->state.blendTargets;
         for (std::size_t i = 0; i < use.writes.size(); ++i) {
-            if (use.writes[i].kind == WriteKind::Color && i < targets.size() && targets[i].blend) use.writes[i].blends = true;
+            if (use.writes[i].kind == WriteKind::Color && i < targets.size() && targets[i].blend)
+                use.writes[i].blends = true;
         }
         // A draw whose depth test lets only what nothing covered pass keeps the rest of the picture.
         use.compute = use.compute || !variant.compute.empty();
@@ -129,7 +139,8 @@ StageUse FrameProgram::useOf(const StageProgram& stage, Problems& problems) cons
             if (surface.variant) addReads(*surface.variant, surface.wires);
         }
     }
-    for (const std::string& target : stage.declaration.reads) use.reads.push_back({.target = target, .shaderName = {}, .where = desc.where});
+    for (const std::string& target : stage.declaration.reads)
+        use.reads.push_back({.target = target, .shaderName = {}, .where = desc.where});
     checkListedReads(desc, use, problems);
     return use;
 }
@@ -137,12 +148,15 @@ StageUse FrameProgram::useOf(const StageProgram& stage, Problems& problems) cons
 void FrameProgram::checkListedReads(const StageDesc& desc, const StageUse& use, Problems& problems) {
     for (const ReadWire& listed : desc.reads) {
         if (!listed.shaderName.empty() || !desc.enabled) continue;
-        const bool found = std::any_of(use.reads.begin(), use.reads.end(), [&](const TargetRead& r) { return r.target == listed.target; });
+        const bool found = std::any_of(use.reads.begin(), use.reads.end(),
+                                       [&](const TargetRead& r) { return r.target == listed.target; });
         if (found) continue;
         std::vector<std::string> names;
         for (const TargetRead& read : use.reads) names.push_back(read.target);
-        problems.error(listed.where, fmt::format("stage '{}' lists '{}' in \"reads\", and its shaders do not read it", desc.name, listed.target),
-                       names.empty() ? "its shaders read no target: remove the entry" : "it reads: " + join(names));
+        problems.error(
+            listed.where,
+            fmt::format("stage '{}' lists '{}' in \"reads\", and its shaders do not read it", desc.name, listed.target),
+            names.empty() ? "its shaders read no target: remove the entry" : "it reads: " + join(names));
     }
 }
 

@@ -22,12 +22,12 @@ class StageRegistry;
 /// A sampler or image of set 1 and what it is wired to: a target, or else a texture by keyword.
 struct Wire {
     BindingSlot slot;
-    std::string name;      ///< In the shader.
+    std::string name;  ///< In the shader.
     bool storage = false;
-    std::string target;    ///< Empty = `texture`.
+    std::string target;  ///< Empty = `texture`.
     std::uint32_t mip = 0;
     bool oneMip = false;
-    std::string texture;   ///< Keyword: white, black, grey, normal.
+    std::string texture;  ///< Keyword: white, black, grey, normal.
 };
 
 /// A full-screen draw or a dispatch, compiled.
@@ -53,7 +53,9 @@ struct QueueProgram {
 };
 
 /// Surfaces are counted by material and by whether the mesh brings tangents.
-inline std::size_t surfaceIndex(int material, bool hasTangents) { return std::size_t(material) * 2 + (hasTangents ? 1 : 0); }
+inline std::size_t surfaceIndex(int material, bool hasTangents) {
+    return std::size_t(material) * 2 + (hasTangents ? 1 : 0);
+}
 
 struct StageProgram {
     std::string flow;
@@ -66,12 +68,13 @@ struct StageProgram {
 
 class FrameProgram {
 public:
-    /// Makes the stages, reads their params, lets them declare, numbers set 0 and compiles what does not depend on a scene.
-    /// Throws Error with everything found wrong.
+    /// Makes the stages, reads their params, lets them declare, numbers set 0 and compiles what does not depend on a
+    /// scene. Throws Error with everything found wrong.
     FrameProgram(PipelineDesc desc, const StageRegistry& registry, EffectLibrary& library, const Log& log, RunInfo run);
     ~FrameProgram();
 
-    /// Compiles what the scene's materials need, unites their reads and plans the frame. Null: no scene, queues draw nothing.
+    /// Compiles what the scene's materials need, unites their reads and plans the frame. Null: no scene, queues draw
+    /// nothing.
     void prepare(const Scene* scene);
 
     const PipelineDesc& desc() const { return desc_; }

@@ -16,35 +16,41 @@ namespace {
 constexpr std::uint64_t kRingBytes = 8u << 20;
 constexpr std::uint64_t kEmptyStorageBytes = 256;
 
-GpuTexture onePixel(Device& device, const std::string& name, std::uint8_t r, std::uint8_t g, std::uint8_t b, std::uint32_t layers = 1) {
+GpuTexture onePixel(Device& device, const std::string& name, std::uint8_t r, std::uint8_t g, std::uint8_t b,
+                    std::uint32_t layers = 1) {
     Image image(1, 1, Format::RGBA8);
     const std::uint8_t rgba[4] = {r, g, b, 255};
     std::memcpy(image.pixels.data(), rgba, sizeof rgba);
     GpuTexture texture(device, {.format = Format::RGBA8,
-                             .layers = layers,
-                             .cube = layers == 6,
-                             .usage = TextureUsage::Sampled | TextureUsage::TransferDest,
-                             .name = name});
+                                .layers = layers,
+                                .cube = layers == 6,
+                                .usage = TextureUsage::Sampled | TextureUsage::TransferDest,
+                                .name = name});
     // All layers go from Undefined to Sampled together, so each later layer starts from Sampled.
     for (std::uint32_t layer = 0; layer < layers; ++layer) {
-        uploadTexture(device, texture, image, layer == 0 ? TextureState::Undefined : TextureState::Sampled, TextureState::Sampled, 0, layer);
+        uploadTexture(device, texture, image, layer == 0 ? TextureState::Undefined : TextureState::Sampled,
+                      TextureState::Sampled, 0, layer);
     }
     return texture;
 }
 
 DescriptorType descriptorType(GlobalKind kind) {
     switch (kind) {
-        case GlobalKind::UniformBlock: return DescriptorType::UniformBufferDynamic;
-        case GlobalKind::StorageBuffer: return DescriptorType::StorageBuffer;
+        case GlobalKind::UniformBlock:
+            return DescriptorType::UniformBufferDynamic;
+        case GlobalKind::StorageBuffer:
+            return DescriptorType::StorageBuffer;
         case GlobalKind::Sampler2D:
-        case GlobalKind::SamplerCube: return DescriptorType::CombinedImageSampler;
+        case GlobalKind::SamplerCube:
+            return DescriptorType::CombinedImageSampler;
     }
     return DescriptorType::CombinedImageSampler;
 }
 
 std::vector<SetLayoutBinding> layoutBindings(const GlobalLayout& layout) {
     std::vector<SetLayoutBinding> bindings;
-    for (const GlobalSlot& slot : layout.slots()) bindings.push_back({.binding = slot.binding, .type = descriptorType(slot.kind)});
+    for (const GlobalSlot& slot : layout.slots())
+        bindings.push_back({.binding = slot.binding, .type = descriptorType(slot.kind)});
     return bindings;
 }
 
@@ -53,13 +59,18 @@ std::vector<SetLayoutBinding> layoutBindings(const GlobalLayout& layout) {
 SamplerKey samplerKey(SamplerKind kind) {
     SamplerKey key;
     switch (kind) {
-        case SamplerKind::PointClamp: break;
-        case SamplerKind::LinearClamp: key.minFilter = key.magFilter = Filter::Linear; break;
+        case SamplerKind::PointClamp:
+            break;
+        case SamplerKind::LinearClamp:
+            key.minFilter = key.magFilter = Filter::Linear;
+            break;
         case SamplerKind::LinearRepeat:
             key.minFilter = key.magFilter = Filter::Linear;
             key.wrapU = key.wrapV = SamplerWrap::Repeat;
             break;
-        case SamplerKind::ShadowCompare: key.compare = CompareOp::LessEqual; break;
+        case SamplerKind::ShadowCompare:
+            key.compare = CompareOp::LessEqual;
+            break;
     }
     return key;
 }
@@ -99,9 +110,15 @@ GlobalSet::GlobalSet(Device& device, DescriptorPool& pool, SamplerCache& sampler
                 zeroBytes_ = std::max<std::uint64_t>(zeroBytes_, slot.size);
                 set_.writeUniformBuffer(slot.binding, ring_, 0, slot.size);
                 break;
-            case GlobalKind::StorageBuffer: set_.writeStorageBuffer(slot.binding, emptyStorage_); break;
-            case GlobalKind::Sampler2D: set_.writeTexture(slot.binding, defaults.white, point); break;
-            case GlobalKind::SamplerCube: set_.writeTexture(slot.binding, defaults.blackCube, point); break;
+            case GlobalKind::StorageBuffer:
+                set_.writeStorageBuffer(slot.binding, emptyStorage_);
+                break;
+            case GlobalKind::Sampler2D:
+                set_.writeTexture(slot.binding, defaults.white, point);
+                break;
+            case GlobalKind::SamplerCube:
+                set_.writeTexture(slot.binding, defaults.blackCube, point);
+                break;
         }
     }
     set_.update();
@@ -134,8 +151,9 @@ void GlobalSet::upload(std::string_view block, std::span<const std::byte> bytes)
     assert(found != blockIndex_.end());
     // The last slice must leave room for the whole range that its descriptor covers.
     if (head_ + std::max<std::uint64_t>(bytes.size(), zeroBytes_) > ring_.size()) {
-        throw RenderError(fmt::format("a frame uploads more than {} MiB of block '{}' and others", kRingBytes >> 20, block),
-                          "upload per-object data through a storage buffer instead of a block");
+        throw RenderError(
+            fmt::format("a frame uploads more than {} MiB of block '{}' and others", kRingBytes >> 20, block),
+            "upload per-object data through a storage buffer instead of a block");
     }
     ring_.write(bytes, head_);
     offsets_[found->second] = static_cast<std::uint32_t>(head_);

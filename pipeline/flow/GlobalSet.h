@@ -40,8 +40,8 @@ public:
     void beginFrame();
     /// A new slice of the block, valid for draws recorded after it. Throws RenderError when a frame uploads too much.
     void upload(std::string_view block, std::span<const std::byte> bytes);
-    /// Blocks uploaded so far are the frame's own: restore() brings these back at the start of each stage, whatever a stage put
-    /// in their place. Blocks uploaded later stay until they are uploaded again.
+    /// Blocks uploaded so far are the frame's own: restore() brings these back at the start of each stage, whatever a
+    /// stage put in their place. Blocks uploaded later stay until they are uploaded again.
     void save() { saved_ = offsets_; }
     void restore();
 

@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::uint32_t kLocalBinding = 0;
 constexpr std::uint32_t kForwardLightBinding = 1;
-constexpr std::uint64_t kSlice = 256;         // the largest alignment Vulkan allows for dynamic offsets
+constexpr std::uint64_t kSlice = 256;  // the largest alignment Vulkan allows for dynamic offsets
 constexpr std::uint64_t kSlices = 16384;
 constexpr std::uint64_t kForwardLightBytes = 1024;
 
@@ -23,7 +23,8 @@ LocalSet::LocalSet(Device& device, DescriptorPool& pool)
                  {{.binding = kLocalBinding, .type = DescriptorType::UniformBufferDynamic},
                   {.binding = kForwardLightBinding, .type = DescriptorType::UniformBuffer}},
                  "set 2"),
-      ring_(device, {.size = kSlices * kSlice + kForwardLightBytes, .usage = BufferUsage::Uniform, .name = "local blocks"}),
+      ring_(device,
+            {.size = kSlices * kSlice + kForwardLightBytes, .usage = BufferUsage::Uniform, .name = "local blocks"}),
       set_(pool.allocate(setLayout_, "local set")) {
     std::memset(ring_.data().data() + kSlices * kSlice, 0, kForwardLightBytes);
     set_.writeUniformBuffer(kLocalBinding, ring_, 0, sizeof(LocalBlock));

@@ -15,16 +15,19 @@ namespace {
 
 void checkInfo(const PluginInfo& info, const std::string& file) {
     if (info.abi != kPluginAbi) {
-        throw Error(fmt::format("plugin '{}' was built for plugin ABI {}, this program has ABI {}", file, info.abi, kPluginAbi),
-                    "rebuild the plugin against this installation's headers");
+        throw Error(
+            fmt::format("plugin '{}' was built for plugin ABI {}, this program has ABI {}", file, info.abi, kPluginAbi),
+            "rebuild the plugin against this installation's headers");
     }
     if (std::string_view(info.compiler) != CREVICE_COMPILER_ID) {
-        throw Error(fmt::format("plugin '{}' was built by {}, this program by {}", file, info.compiler, CREVICE_COMPILER_ID),
-                    "build both with the same compiler: C++ classes cross the border between them");
+        throw Error(
+            fmt::format("plugin '{}' was built by {}, this program by {}", file, info.compiler, CREVICE_COMPILER_ID),
+            "build both with the same compiler: C++ classes cross the border between them");
     }
     if (std::string_view(info.buildType) != CREVICE_BUILD_TYPE) {
-        throw Error(fmt::format("plugin '{}' is a {} build, this program a {} build", file, info.buildType, CREVICE_BUILD_TYPE),
-                    "build the plugin with the same CMAKE_BUILD_TYPE");
+        throw Error(
+            fmt::format("plugin '{}' is a {} build, this program a {} build", file, info.buildType, CREVICE_BUILD_TYPE),
+            "build the plugin with the same CMAKE_BUILD_TYPE");
     }
 }
 
@@ -33,10 +36,13 @@ void checkInfo(const PluginInfo& info, const std::string& file) {
 Plugin::Plugin(const std::filesystem::path& path, StageRegistry& registry) : path_(path) {
     const std::string file = path.string();
     if (!std::filesystem::exists(path)) {
-        throw Error(fmt::format("plugin '{}' does not exist", file), "give the path of the shared library: --plugin ./libNAME.so");
+        throw Error(fmt::format("plugin '{}' does not exist", file),
+                    "give the path of the shared library: --plugin ./libNAME.so");
     }
     handle_ = dlopen(std::filesystem::absolute(path).c_str(), RTLD_NOW | RTLD_LOCAL);
-    if (!handle_) throw Error(fmt::format("plugin '{}' cannot be loaded: {}", file, dlerror()), "check its dependencies with ldd");
+    if (!handle_)
+        throw Error(fmt::format("plugin '{}' cannot be loaded: {}", file, dlerror()),
+                    "check its dependencies with ldd");
 
     const auto* info = static_cast<const PluginInfo*>(dlsym(handle_, "crevice_plugin_info"));
     const auto registerStages = reinterpret_cast<void (*)(StageRegistry&)>(dlsym(handle_, "crevice_register_stages"));
@@ -61,6 +67,7 @@ Plugin::~Plugin() {
     if (handle_) dlclose(handle_);
 }
 
-Plugin::Plugin(Plugin&& other) noexcept : handle_(std::exchange(other.handle_, nullptr)), path_(std::move(other.path_)) {}
+Plugin::Plugin(Plugin&& other) noexcept
+    : handle_(std::exchange(other.handle_, nullptr)), path_(std::move(other.path_)) {}
 
 }  // namespace crevice

@@ -29,8 +29,8 @@ struct PluginInfo {
 #endif
 
 /// CREVICE_PLUGIN(registry) { registry.add<MyStage>("MyStage", {.priority = 17, .help = "…"}); }
-#define CREVICE_PLUGIN(registry)                                                                                 \
-    extern "C" __attribute__((visibility("default"))) const crevice::PluginInfo crevice_plugin_info;             \
+#define CREVICE_PLUGIN(registry)                                                                                    \
+    extern "C" __attribute__((visibility("default"))) const crevice::PluginInfo crevice_plugin_info;                \
     const crevice::PluginInfo crevice_plugin_info = {crevice::kPluginAbi, CREVICE_COMPILER_ID, CREVICE_BUILD_TYPE}; \
     extern "C" __attribute__((visibility("default"))) void crevice_register_stages(crevice::StageRegistry& registry)
 

@@ -19,7 +19,8 @@ std::string defineText(const Value& value, const std::string& name) {
     if (value.isBool()) return value.boolean() ? "1" : "0";
     if (value.isInteger()) return std::to_string(value.integer());
     if (value.isString()) return value.string();
-    throw Error(value.where(), fmt::format("define '{}' must be a bool, an integer or a word, found {}", name, value.typeName()),
+    throw Error(value.where(),
+                fmt::format("define '{}' must be a bool, an integer or a word, found {}", name, value.typeName()),
                 "write true, false, 3 or \"word\"");
 }
 
@@ -51,14 +52,19 @@ Value knownProperties(const Value& offered, const EffectPass& pass) {
 
 }  // namespace
 
-const EffectVariant& ProgramCompiler::compile(const StageProgram& stage, const std::string& effect, PassChoice choice, const Defines& offered) {
+const EffectVariant& ProgramCompiler::compile(const StageProgram& stage, const std::string& effect, PassChoice choice,
+                                              const Defines& offered) {
     const StageDesc& desc = *stage.desc;
     for (const auto& [name, text] : stage.declaration.chunks) library_.setChunk(name, text);
-    VariantRequest request{.effect = effect, .technique = choice.technique, .pass = choice.pass, .defines = {},
+    VariantRequest request{.effect = effect,
+                           .technique = choice.technique,
+                           .pass = choice.pass,
+                           .defines = {},
                            .where = desc.effectWhere.line ? desc.effectWhere : desc.where};
     std::set<std::string> known;
     library_.asset(effect, request.where);
-    for (const DefineInfo& info : library_.discoverDefines(effect, choice.technique, choice.pass)) known.insert(info.name);
+    for (const DefineInfo& info : library_.discoverDefines(effect, choice.technique, choice.pass))
+        known.insert(info.name);
     for (const auto& [name, value] : offered) {
         if (known.contains(name)) request.defines.emplace(name, value);
     }
@@ -79,8 +85,9 @@ void ProgramCompiler::compileDraws(StageProgram& stage, Problems& problems) {
         const EffectVariant& variant = *program.variant;
         if (draw.compute == variant.compute.empty()) {
             problems.error(desc.effectWhere.line ? desc.effectWhere : desc.where,
-                           draw.compute ? fmt::format("effect '{}' of stage '{}' has no compute program", draw.effect, desc.name)
-                                        : fmt::format("effect '{}' of stage '{}' is a compute effect", draw.effect, desc.name),
+                           draw.compute
+                               ? fmt::format("effect '{}' of stage '{}' has no compute program", draw.effect, desc.name)
+                               : fmt::format("effect '{}' of stage '{}' is a compute effect", draw.effect, desc.name),
                            draw.compute ? "give its pass \"compute: PROGRAM\", or use FullscreenStage"
                                         : "use ComputeStage for it");
         }
@@ -92,19 +99,21 @@ void ProgramCompiler::compileDraws(StageProgram& stage, Problems& problems) {
     }
 }
 
-void ProgramCompiler::compileQueue(const StageProgram& stage, QueueProgram& queue, const Scene& scene, Problems& problems) {
+void ProgramCompiler::compileQueue(const StageProgram& stage, QueueProgram& queue, const Scene& scene,
+                                   Problems& problems) {
     queue.surfaces.resize(scene.materials.size() * 2);
     std::set<std::size_t> needed;
     for (const Instance& instance : scene.instances) {
         needed.insert(surfaceIndex(instance.material, scene.meshes[std::size_t(instance.mesh)].hasTangents));
     }
     for (const std::size_t index : needed) {
-        queue.surfaces[index] = compileSurface(stage, queue.declaration, scene.materials[index / 2], index % 2 == 1, problems);
+        queue.surfaces[index] =
+            compileSurface(stage, queue.declaration, scene.materials[index / 2], index % 2 == 1, problems);
     }
 }
 
-SurfaceProgram ProgramCompiler::compileSurface(const StageProgram& stage, const QueueDeclaration& queue, const SceneMaterial& material,
-                                               bool hasTangents, Problems& problems) {
+SurfaceProgram ProgramCompiler::compileSurface(const StageProgram& stage, const QueueDeclaration& queue,
+                                               const SceneMaterial& material, bool hasTangents, Problems& problems) {
     SurfaceProgram surface;
     PassChoice choice;
     if (!choosePass(stage, queue, material.alphaMode, choice)) return surface;
@@ -113,8 +122,10 @@ SurfaceProgram ProgramCompiler::compileSurface(const StageProgram& stage, const 
     checkBlocks(stage, variant, problems);
     surface.variant = &variant;
     surface.doubleSided = material.doubleSided;
-    surface.material = makeMaterial(variant, merged(knownProperties(inputs.properties, *variant.pass), stage.desc->material), problems);
-    surface.wires = wireShader({desc_, *stage.desc, variant, *surface.material, stage.declaration.writes, true}, problems);
+    surface.material = makeMaterial(
+        variant, merged(knownProperties(inputs.properties, *variant.pass), stage.desc->material), problems);
+    surface.wires =
+        wireShader({desc_, *stage.desc, variant, *surface.material, stage.declaration.writes, true}, problems);
     for (const auto& [sampler, ref] : inputs.textures) {
         for (const Wire& wire : surface.wires) {
             if (wire.name == sampler && wire.target.empty()) surface.textures.emplace_back(wire.slot, ref);
@@ -123,8 +134,10 @@ SurfaceProgram ProgramCompiler::compileSurface(const StageProgram& stage, const 
     return surface;
 }
 
-bool ProgramCompiler::choosePass(const StageProgram& stage, const QueueDeclaration& queue, AlphaMode mode, PassChoice& choice) {
-    const EffectAsset& asset = library_.asset(queue.effect, stage.desc->effectWhere.line ? stage.desc->effectWhere : stage.desc->where);
+bool ProgramCompiler::choosePass(const StageProgram& stage, const QueueDeclaration& queue, AlphaMode mode,
+                                 PassChoice& choice) {
+    const EffectAsset& asset =
+        library_.asset(queue.effect, stage.desc->effectWhere.line ? stage.desc->effectWhere : stage.desc->where);
     // Technique 0 is opaque; one named `transparent` serves blended materials.
     if (mode == AlphaMode::Blend) {
         for (std::size_t i = 0; i < asset.techniques.size(); ++i) {
@@ -147,11 +160,12 @@ void ProgramCompiler::checkBlocks(const StageProgram& stage, const EffectVariant
         if (resource.slot.set != 0 || resource.kind != ResourceKind::UniformBlock) continue;
         const GlobalSlot* slot = globals_.find(resource.name);
         if (!slot || slot->size == resource.size) continue;
-        problems.error(resource.where.line ? resource.where : stage.desc->where,
-                       fmt::format("block '{}' has {} bytes in effect '{}' and {} bytes in the pipeline", resource.name, resource.size,
-                                   variant.effect, slot->size),
-                       "declare the same members in the effect and in the stage's struct",
-                       slot->where.line ? std::vector<Remark>{{slot->where, "declared by this stage"}} : std::vector<Remark>{});
+        problems.error(
+            resource.where.line ? resource.where : stage.desc->where,
+            fmt::format("block '{}' has {} bytes in effect '{}' and {} bytes in the pipeline", resource.name,
+                        resource.size, variant.effect, slot->size),
+            "declare the same members in the effect and in the stage's struct",
+            slot->where.line ? std::vector<Remark>{{slot->where, "declared by this stage"}} : std::vector<Remark>{});
     }
 }
 

@@ -15,11 +15,14 @@ public:
     void compileQueue(const StageProgram& stage, QueueProgram& queue, const Scene& scene, Problems& problems);
 
 private:
-    struct PassChoice { std::size_t technique = 0, pass = 0; };
+    struct PassChoice {
+        std::size_t technique = 0, pass = 0;
+    };
 
-    const EffectVariant& compile(const StageProgram& stage, const std::string& effect, PassChoice choice, const Defines& offered);
-    SurfaceProgram compileSurface(const StageProgram& stage, const QueueDeclaration& queue, const SceneMaterial& material,
-                                  bool hasTangents, Problems& problems);
+    const EffectVariant& compile(const StageProgram& stage, const std::string& effect, PassChoice choice,
+                                 const Defines& offered);
+    SurfaceProgram compileSurface(const StageProgram& stage, const QueueDeclaration& queue,
+                                  const SceneMaterial& material, bool hasTangents, Problems& problems);
     bool choosePass(const StageProgram& stage, const QueueDeclaration& queue, AlphaMode mode, PassChoice& choice);
     void checkBlocks(const StageProgram& stage, const EffectVariant& variant, Problems& problems) const;
 

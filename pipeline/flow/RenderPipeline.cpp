@@ -25,7 +25,9 @@ public:
     const Scene& scene() const override { return scene_.scene(); }
     const Aabb& sceneBounds() const override { return scene_.bounds(); }
     glm::uvec2 extent() const override { return extent_; }
-    void setProperty(DrawId draw, std::string_view name, const Value& value) override { execution_.setProperty(draw, name, value); }
+    void setProperty(DrawId draw, std::string_view name, const Value& value) override {
+        execution_.setProperty(draw, name, value);
+    }
 
 private:
     StageExecution& execution_;
@@ -42,8 +44,8 @@ struct RenderPipeline::Kept {
     bool current = false;  ///< Copied by the last frame.
 };
 
-RenderPipeline::RenderPipeline(Device& device, EffectLibrary& library, const StageRegistry& registry, const Log& log, PipelineDesc desc,
-                               RunInfo run)
+RenderPipeline::RenderPipeline(Device& device, EffectLibrary& library, const StageRegistry& registry, const Log& log,
+                               PipelineDesc desc, RunInfo run)
     : device_(device),
       log_(log),
       program_(std::move(desc), registry, library, log, run),
@@ -68,14 +70,22 @@ void RenderPipeline::prepare(const Scene& scene) {
     log_.write(program_.plan().notes);
     scene_ = std::make_unique<SceneGpu>(device_, samplers_, scene);
     const std::vector<std::byte> lights = punctualLights(scene);
-    lights_ = Buffer(device_, {.size = lights.size(), .usage = BufferUsage::Storage, .name = "punctual lights"}, lights);
+    lights_ =
+        Buffer(device_, {.size = lights.size(), .usage = BufferUsage::Storage, .name = "punctual lights"}, lights);
     globals_.writeBuffer("CCPunctualLights", lights_);
     globals_.update();
     targets_ = std::make_unique<TargetPool>(device_, program_.desc(), program_.plan());
-    context_ = std::make_unique<ExecutionContext>(ExecutionContext{{device_, pool_, samplers_, defaults_}, layouts_, pipelines_, globals_,
-                                                                   locals_, instances_, commands_, *targets_});
+    context_ = std::make_unique<ExecutionContext>(ExecutionContext{{device_, pool_, samplers_, defaults_},
+                                                                   layouts_,
+                                                                   pipelines_,
+                                                                   globals_,
+                                                                   locals_,
+                                                                   instances_,
+                                                                   commands_,
+                                                                   *targets_});
     for (const PlannedStage& planned : program_.plan().stages) {
-        executions_.push_back(std::make_unique<StageExecution>(*context_, program_.stages()[planned.use], planned, scene_.get()));
+        executions_.push_back(
+            std::make_unique<StageExecution>(*context_, program_.stages()[planned.use], planned, scene_.get()));
     }
     timestamps_ = std::make_unique<Timestamps>(device_, static_cast<std::uint32_t>(executions_.size() + 2));
 }
@@ -84,7 +94,8 @@ void RenderPipeline::activate(glm::uvec2 extent) {
     if (extent == targets_->extent()) return;
     // Set 0 must let go of the old views before they are destroyed: some drivers read them although no shader does.
     for (const TargetDesc& target : program_.desc().targets) {
-        if (target.isGlobal() && targets_->extent().x > 0) globals_.writeImage(target.name, defaults_.white, target.sampler);
+        if (target.isGlobal() && targets_->extent().x > 0)
+            globals_.writeImage(target.name, defaults_.white, target.sampler);
     }
     globals_.update();
     targets_->resize(extent);
@@ -99,8 +110,9 @@ void RenderPipeline::activate(glm::uvec2 extent) {
         Setup setup(*execution, *scene_, extent);
         execution->stage().activate(setup);
     }
-    log_.verbose(fmt::format("{}x{}: targets hold {:.1f} MiB; auto radius {:.4g} world units (1/40 of the scene's diagonal)", extent.x,
-                             extent.y, static_cast<double>(targets_->bytes()) / (1 << 20), autoLength));
+    log_.verbose(
+        fmt::format("{}x{}: targets hold {:.1f} MiB; auto radius {:.4g} world units (1/40 of the scene's diagonal)",
+                    extent.x, extent.y, static_cast<double>(targets_->bytes()) / (1 << 20), autoLength));
 }
 
 void RenderPipeline::render(const FrameView& view, std::span<const std::string> keep) {
@@ -161,7 +173,11 @@ void RenderPipeline::beginStage(const StageExecution& execution) {
         if (write.kind == WriteKind::Color) {
             rendering.colors.push_back({.texture = &texture, .load = load, .clear = clear, .mip = write.mip});
         } else if (write.kind != WriteKind::Storage) {
-            rendering.depth = {.texture = &texture, .load = load, .clear = clear.x, .readOnly = write.kind == WriteKind::DepthTest, .mip = write.mip};
+            rendering.depth = {.texture = &texture,
+                               .load = load,
+                               .clear = clear.x,
+                               .readOnly = write.kind == WriteKind::DepthTest,
+                               .mip = write.mip};
         }
     }
     commands_.beginRendering(rendering);
@@ -191,7 +207,8 @@ void RenderPipeline::recordReadback(std::string_view target) {
     if (life == lives.end()) {
         std::vector<std::string> names;
         for (const TargetLife& l : lives) names.push_back(l.target);
-        throw Error(fmt::format("pipeline '{}' has no target '{}'", program_.desc().name, target), didYouMean(target, names, "targets"));
+        throw Error(fmt::format("pipeline '{}' has no target '{}'", program_.desc().name, target),
+                    didYouMean(target, names, "targets"));
     }
     const GpuTexture& texture = targets_->texture(target);
     const TextureState state = textureState(life->atEnd);

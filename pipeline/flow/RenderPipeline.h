@@ -24,10 +24,12 @@ struct StageTime {
 class RenderPipeline {
 public:
     /// Throws Error with everything wrong in the document, its effects and materials.
-    RenderPipeline(Device& device, EffectLibrary& library, const StageRegistry& registry, const Log& log, PipelineDesc desc, RunInfo run);
+    RenderPipeline(Device& device, EffectLibrary& library, const StageRegistry& registry, const Log& log,
+                   PipelineDesc desc, RunInfo run);
     ~RenderPipeline();
 
-    /// Uploads the scene, compiles what its materials need and plans the frame. The scene must outlive its use here, unchanged.
+    /// Uploads the scene, compiles what its materials need and plans the frame. The scene must outlive its use here,
+    /// unchanged.
     void prepare(const Scene& scene);
 
     /// Renders one frame and waits. Targets are made anew only when the extent differs from the last frame's.

@@ -24,9 +24,12 @@ InstanceRows rowsOf(const glm::mat4& world) {
 
 SamplerWrap addressMode(TextureWrap wrap) {
     switch (wrap) {
-        case TextureWrap::Repeat: return SamplerWrap::Repeat;
-        case TextureWrap::Mirror: return SamplerWrap::Mirror;
-        case TextureWrap::Clamp: return SamplerWrap::Clamp;
+        case TextureWrap::Repeat:
+            return SamplerWrap::Repeat;
+        case TextureWrap::Mirror:
+            return SamplerWrap::Mirror;
+        case TextureWrap::Clamp:
+            return SamplerWrap::Clamp;
     }
     return SamplerWrap::Repeat;
 }
@@ -58,11 +61,14 @@ void SceneGpu::uploadMeshes(Device& device) {
         indexCount += mesh.indices.size();
     }
     if (indexCount == 0) return;
-    vertices_ = Buffer(device, {.size = vertexCount * sizeof(Vertex), .usage = BufferUsage::Vertex, .name = "scene vertices"});
-    indices_ = Buffer(device, {.size = indexCount * sizeof(std::uint32_t), .usage = BufferUsage::Index, .name = "scene indices"});
+    vertices_ =
+        Buffer(device, {.size = vertexCount * sizeof(Vertex), .usage = BufferUsage::Vertex, .name = "scene vertices"});
+    indices_ = Buffer(
+        device, {.size = indexCount * sizeof(std::uint32_t), .usage = BufferUsage::Index, .name = "scene indices"});
     for (std::size_t i = 0; i < meshes_.size(); ++i) {
         const Mesh& mesh = scene_.meshes[i];
-        vertices_.write(std::as_bytes(std::span(mesh.vertices)), std::uint64_t(meshes_[i].vertexOffset) * sizeof(Vertex));
+        vertices_.write(std::as_bytes(std::span(mesh.vertices)),
+                        std::uint64_t(meshes_[i].vertexOffset) * sizeof(Vertex));
         indices_.write(std::as_bytes(std::span(mesh.indices)), meshes_[i].firstIndex * sizeof(std::uint32_t));
     }
 }
@@ -88,7 +94,9 @@ InstanceStream::Slice InstanceStream::append(const Scene& scene, std::span<const
         used_ = 0;
     }
     if (piece_ == pieces_.size()) {
-        pieces_.emplace_back(device_, BufferDesc{.size = std::max(bytes, kPieceBytes), .usage = BufferUsage::Vertex, .name = "instances"});
+        pieces_.emplace_back(
+            device_,
+            BufferDesc{.size = std::max(bytes, kPieceBytes), .usage = BufferUsage::Vertex, .name = "instances"});
         used_ = 0;
     }
     Buffer& buffer = pieces_[piece_];

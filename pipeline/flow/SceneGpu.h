@@ -42,7 +42,8 @@ private:
     std::vector<VkSampler> textureSamplers_;
 };
 
-/// World matrices of drawn instances as rows, in a host buffer that starts over with every frame and grows by whole pieces.
+/// World matrices of drawn instances as rows, in a host buffer that starts over with every frame and grows by whole
+/// pieces.
 class InstanceStream {
 public:
     explicit InstanceStream(Device& device) : device_(device) {}

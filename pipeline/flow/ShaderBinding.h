@@ -28,7 +28,8 @@ public:
     const SetLayout& setLayout() const { return setLayout_; }
     /// Block values again, after a property changed. The GPU must not be using the set.
     void writeBlocks(const Material& material);
-    /// Textures and targets, after the targets were made anew. `depthReadOnly`: targets that the stage tests while it samples.
+    /// Textures and targets, after the targets were made anew. `depthReadOnly`: targets that the stage tests while it
+    /// samples.
     void writeTextures(const BindingContext& context, const std::vector<Wire>& wires, const TargetPool& targets,
                        const std::vector<std::string>& depthReadOnly);
     void writeSceneTextures(const std::vector<std::pair<BindingSlot, TextureRef>>& textures, const SceneGpu& scene);

@@ -52,7 +52,8 @@ std::optional<ShadowView> spotShadowView(const Scene& scene, const Aabb& bounds)
         if (&light == mainLight(scene)) continue;
         if (light.type == LightType::Spot && light.castsShadow) {
             ShadowView result;
-            const float reach = glm::length(glm::max(glm::abs(bounds.max - light.position), glm::abs(bounds.min - light.position)));
+            const float reach =
+                glm::length(glm::max(glm::abs(bounds.max - light.position), glm::abs(bounds.min - light.position)));
             result.far = light.range > 0 ? std::min(light.range, reach) : reach;
             result.far = std::max(result.far, 1e-5f);
             result.near = result.far * 0.005f;

@@ -30,10 +30,12 @@ StageExecution::StageExecution(const ExecutionContext& context, StageProgram& pr
     for (const PlannedWrite& write : planned.writes) {
         const Format format = context.targets.format(write.write.target);
         if (write.write.kind == WriteKind::Color) colorFormats_.push_back(format);
-        if (write.write.kind == WriteKind::DepthTest || write.write.kind == WriteKind::DepthWrite) depthFormat_ = format;
+        if (write.write.kind == WriteKind::DepthTest || write.write.kind == WriteKind::DepthWrite)
+            depthFormat_ = format;
         if (write.write.kind == WriteKind::DepthTest) depthReadOnly_.push_back(write.write.target);
     }
-    for (const DrawProgram& draw : program.draws) draws_.push_back(makeShader(*draw.variant, *draw.material, false, false));
+    for (const DrawProgram& draw : program.draws)
+        draws_.push_back(makeShader(*draw.variant, *draw.material, false, false));
     for (const QueueProgram& queue : program.queues) {
         std::vector<ShaderGpu>& shaders = queues_.emplace_back();
         for (const SurfaceProgram& surface : queue.surfaces) {
@@ -47,7 +49,8 @@ StageExecution::StageExecution(const ExecutionContext& context, StageProgram& pr
     }
 }
 
-StageExecution::ShaderGpu StageExecution::makeShader(const EffectVariant& variant, const Material& material, bool surface, bool doubleSided) {
+StageExecution::ShaderGpu StageExecution::makeShader(const EffectVariant& variant, const Material& material,
+                                                     bool surface, bool doubleSided) {
     ShaderGpu shader;
     shader.binding.emplace(context_.bindings, variant, material);
     shader.usesLocal = usesSet(variant.info, 2);
@@ -55,7 +58,8 @@ StageExecution::ShaderGpu StageExecution::makeShader(const EffectVariant& varian
     if (shader.usesLocal) sets.push_back(&context_.locals.setLayout());
     const PipelineLayout& layout = context_.layouts.get(sets);
     if (!variant.compute.empty()) {
-        shader.pipeline = &context_.pipelines.get(ComputePipelineDesc{.compute = variant.compute, .layout = &layout, .name = variant.name});
+        shader.pipeline = &context_.pipelines.get(
+            ComputePipelineDesc{.compute = variant.compute, .layout = &layout, .name = variant.name});
         return shader;
     }
     RenderState state = variant.pass->state;
@@ -68,7 +72,8 @@ StageExecution::ShaderGpu StageExecution::makeShader(const EffectVariant& varian
     return shader;
 }
 
-const Pipeline& StageExecution::makePipeline(const EffectVariant& variant, const PipelineLayout& layout, const RenderState& state) {
+const Pipeline& StageExecution::makePipeline(const EffectVariant& variant, const PipelineLayout& layout,
+                                             const RenderState& state) {
     const VertexInput input = vertexInput(variant);
     return context_.pipelines.get(GraphicsPipelineDesc{.vertex = variant.vertex,
                                                        .fragment = variant.fragment,
@@ -156,9 +161,9 @@ void StageExecution::drawQueue(QueueId queue, const glm::mat4& view, const glm::
     if (!scene_ || scene_->scene().instances.empty()) return;
     const QueueProgram& program = program_.queues[queue.index];
     const bool blended = program.declaration.queue.sort == QueueSort::BackToFront;
-    const DrawList list = buildDrawList(scene_->scene(), scene_->instanceBounds(), {.view = view, .viewProjection = viewProjection},
-                                        blended ? DrawFilter::Blend : DrawFilter::Opaque,
-                                        blended ? DrawOrder::BackToFront : DrawOrder::FrontToBack);
+    const DrawList list = buildDrawList(
+        scene_->scene(), scene_->instanceBounds(), {.view = view, .viewProjection = viewProjection},
+        blended ? DrawFilter::Blend : DrawFilter::Opaque, blended ? DrawOrder::BackToFront : DrawOrder::FrontToBack);
     scene_->bindMeshes(context_.commands);
     for (const DrawBatch& batch : list.batches) {
         const bool tangents = scene_->scene().meshes[std::size_t(batch.mesh)].hasTangents;
@@ -169,7 +174,8 @@ void StageExecution::drawQueue(QueueId queue, const glm::mat4& view, const glm::
     }
 }
 
-void StageExecution::drawBatch(const ShaderGpu& shader, const DrawBatch& batch, std::span<const std::uint32_t> instances) {
+void StageExecution::drawBatch(const ShaderGpu& shader, const DrawBatch& batch,
+                               std::span<const std::uint32_t> instances) {
     const SceneGpu::MeshRange& mesh = scene_->mesh(batch.mesh);
     const InstanceStream::Slice rows = context_.instances.append(scene_->scene(), instances);
     context_.commands.bindVertexBuffer(1, *rows.buffer, rows.offset);

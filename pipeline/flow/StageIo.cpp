@@ -24,7 +24,8 @@ StageIo::StageIo(StageDeclaration& declaration, const StageDesc& desc, const Run
     : declaration_(declaration), desc_(desc), run_(run) {}
 
 void StageIo::addWrite(std::string_view target, WriteKind kind) {
-    // "writes" of the document renames the outputs of a class in their order, so that two instances can write two targets.
+    // "writes" of the document renames the outputs of a class in their order, so that two instances can write two
+    // targets.
     if (kind == WriteKind::Color || kind == WriteKind::Storage) {
         if (renamed_ < desc_.writes.size()) target = desc_.writes[renamed_];
         ++renamed_;
@@ -87,6 +88,8 @@ void StageIo::property(DrawId draw, std::string_view name, Value value) {
     material.set(std::string(name), std::move(value));
 }
 
-void StageIo::chunk(std::string_view name, std::string text) { declaration_.chunks.emplace_back(name, std::move(text)); }
+void StageIo::chunk(std::string_view name, std::string text) {
+    declaration_.chunks.emplace_back(name, std::move(text));
+}
 
 }  // namespace crevice

@@ -14,9 +14,15 @@
 
 namespace crevice {
 
-struct BlockId { std::uint32_t index = ~0u; };
-struct DrawId { std::uint32_t index = ~0u; };
-struct QueueId { std::uint32_t index = ~0u; };
+struct BlockId {
+    std::uint32_t index = ~0u;
+};
+struct DrawId {
+    std::uint32_t index = ~0u;
+};
+struct QueueId {
+    std::uint32_t index = ~0u;
+};
 
 enum class DepthUse { Test, Write };  ///< Write tests and writes.
 
@@ -30,13 +36,13 @@ struct RunInfo {
 struct DrawDeclaration {
     std::string effect;
     bool compute = false;
-    Defines defines;      ///< From the stage's code; those of the document win.
-    Value material;       ///< Values of properties, from the stage's code; those of the document win.
+    Defines defines;  ///< From the stage's code; those of the document win.
+    Value material;   ///< Values of properties, from the stage's code; those of the document win.
 };
 
 struct QueueDeclaration {
     QueueDesc queue;
-    std::string effect;   ///< Draws every scene material; "effect" of the stage in the document overrides.
+    std::string effect;  ///< Draws every scene material; "effect" of the stage in the document overrides.
 };
 
 struct BlockDeclaration {
@@ -68,7 +74,9 @@ public:
 
     /// A uniform block of set 0 that this stage fills. sizeof(T) is checked against every effect that declares it.
     template <class T>
-    BlockId block(std::string_view name) { return addBlock(name, sizeof(T)); }
+    BlockId block(std::string_view name) {
+        return addBlock(name, sizeof(T));
+    }
 
     /// A full-screen triangle. The document's "effect", "defines" and "material" apply.
     DrawId fullscreen(std::string_view defaultEffect);

@@ -12,8 +12,8 @@ namespace crevice {
 
 void StageRegistry::addClass(StageClass stageClass) {
     if (const StageClass* first = find(stageClass.name)) {
-        throw Error(fmt::format("stage class '{}' of {} is already registered by {}", stageClass.name, stageClass.origin,
-                                first->origin),
+        throw Error(fmt::format("stage class '{}' of {} is already registered by {}", stageClass.name,
+                                stageClass.origin, first->origin),
                     "rename one of the two classes, or load only one of the plugins");
     }
     const auto place = std::lower_bound(classes_.begin(), classes_.end(), stageClass.name,
@@ -22,7 +22,8 @@ void StageRegistry::addClass(StageClass stageClass) {
 }
 
 const StageClass* StageRegistry::find(std::string_view name) const {
-    const auto found = std::find_if(classes_.begin(), classes_.end(), [&](const StageClass& c) { return c.name == name; });
+    const auto found =
+        std::find_if(classes_.begin(), classes_.end(), [&](const StageClass& c) { return c.name == name; });
     return found == classes_.end() ? nullptr : &*found;
 }
 

@@ -1,4 +1,5 @@
-// One table row per texture of the metallic-roughness model: its sampler, the macro that turns it on, the macro of its UV set.
+// One table row per texture of the metallic-roughness model: its sampler, the macro that turns it on, the macro of its
+// UV set.
 #include "flow/Surface.h"
 
 #include <iterator>
@@ -14,7 +15,8 @@ struct MapRow {
 };
 constexpr MapRow kMaps[] = {
     {&SceneMaterial::baseColorMap, "baseColorMap", "USE_BASE_COLOR_MAP", "BASE_COLOR_UV"},
-    {&SceneMaterial::metallicRoughnessMap, "metallicRoughnessMap", "USE_METALLIC_ROUGHNESS_MAP", "METALLIC_ROUGHNESS_UV"},
+    {&SceneMaterial::metallicRoughnessMap, "metallicRoughnessMap", "USE_METALLIC_ROUGHNESS_MAP",
+     "METALLIC_ROUGHNESS_UV"},
     {&SceneMaterial::normalMap, "normalMap", "USE_NORMAL_MAP", "NORMAL_UV"},
     {&SceneMaterial::occlusionMap, "occlusionMap", "USE_OCCLUSION_MAP", "OCCLUSION_UV"},
     {&SceneMaterial::emissiveMap, "emissiveMap", "USE_EMISSIVE_MAP", "EMISSIVE_UV"},

@@ -13,8 +13,8 @@ namespace crevice {
 
 /// What an effect is given for one material on meshes of one kind.
 struct SurfaceInputs {
-    Defines defines;       ///< Offered: macros that the effect does not know are left out by the caller.
-    Value properties;      ///< Likewise.
+    Defines defines;   ///< Offered: macros that the effect does not know are left out by the caller.
+    Value properties;  ///< Likewise.
     std::vector<std::pair<std::string, TextureRef>> textures;  ///< Sampler name → texture of the scene.
 };
 

@@ -33,18 +33,22 @@ void TargetPool::checkFits(glm::uvec2 extent) const {
     for (const TargetDesc& target : desc_.targets) {
         const glm::uvec3 size = targetExtent(target, extent.x, extent.y);
         if (size.x > side || size.y > side) {
-            throw Error(target.where, fmt::format("target '{}' would be {}x{} pixels, and '{}' allows {}", target.name, size.x,
-                                                  size.y, device_.deviceName(), side),
+            throw Error(target.where,
+                        fmt::format("target '{}' would be {}x{} pixels, and '{}' allows {}", target.name, size.x,
+                                    size.y, device_.deviceName(), side),
                         "render smaller, or lower the target's scale");
         }
         sum += targetBytes(target, extent.x, extent.y);
     }
     const std::uint64_t held = bytes();
-    const std::uint64_t free = device_.heapBytes() - std::min(device_.heapBytes(), device_.allocatedBytes() - std::min(device_.allocatedBytes(), held));
+    const std::uint64_t free =
+        device_.heapBytes() -
+        std::min(device_.heapBytes(), device_.allocatedBytes() - std::min(device_.allocatedBytes(), held));
     if (sum > free) {
-        throw Error(fmt::format("the targets of pipeline '{}' at {}x{} need {} MiB; '{}' has {} MiB free of {} MiB", desc_.name, extent.x,
-                                extent.y, sum >> 20, device_.deviceName(), free >> 20, device_.heapBytes() >> 20),
-                    "render smaller with --size, or scale targets down in the pipeline");
+        throw Error(
+            fmt::format("the targets of pipeline '{}' at {}x{} need {} MiB; '{}' has {} MiB free of {} MiB", desc_.name,
+                        extent.x, extent.y, sum >> 20, device_.deviceName(), free >> 20, device_.heapBytes() >> 20),
+            "render smaller with --size, or scale targets down in the pipeline");
     }
 }
 
@@ -56,12 +60,12 @@ GpuTexture TargetPool::makeTexture(const TargetDesc& target, const TargetLife& l
     if (life.storage) usage |= TextureUsage::Storage;
     if (life.transferDest || life.neverWritten) usage |= TextureUsage::TransferDest;
     return GpuTexture(device_, {.format = target.format,
-                             .width = size.x,
-                             .height = size.y,
-                             .mips = target.mips,
-                             .layers = target.layers,
-                             .usage = usage,
-                             .name = target.name});
+                                .width = size.x,
+                                .height = size.y,
+                                .mips = target.mips,
+                                .layers = target.layers,
+                                .usage = usage,
+                                .name = target.name});
 }
 
 void TargetPool::clearUnwritten() {

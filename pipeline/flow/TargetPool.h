@@ -19,7 +19,8 @@ public:
     /// Makes nothing yet: resize() does.
     TargetPool(Device& device, const PipelineDesc& desc, const FramePlan& plan);
 
-    /// Throws Error with the sum beforehand when the targets do not fit the device's heap or limits. The GPU must be idle.
+    /// Throws Error with the sum beforehand when the targets do not fit the device's heap or limits. The GPU must be
+    /// idle.
     void resize(glm::uvec2 extent);
     glm::uvec2 extent() const { return extent_; }
 

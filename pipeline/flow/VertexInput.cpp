@@ -37,8 +37,10 @@ const AttributeRow& findAttribute(const ShaderVariable& input, const EffectVaria
         if (input.name == row.name) return row;
         names.emplace_back(row.name);
     }
-    throw Error(variant.pass->where, fmt::format("effect '{}' reads vertex attribute '{}', which meshes do not have", variant.effect, input.name),
-                didYouMean(input.name, names, "attributes"));
+    throw Error(
+        variant.pass->where,
+        fmt::format("effect '{}' reads vertex attribute '{}', which meshes do not have", variant.effect, input.name),
+        didYouMean(input.name, names, "attributes"));
 }
 
 }  // namespace
@@ -49,7 +51,8 @@ VertexInput vertexInput(const EffectVariant& variant) {
     for (const ShaderVariable& input : variant.info.inputs) {
         if (!input.active) continue;
         const AttributeRow& row = findAttribute(input, variant);
-        result.attributes.push_back({.location = input.location, .binding = row.binding, .format = row.format, .offset = row.offset});
+        result.attributes.push_back(
+            {.location = input.location, .binding = row.binding, .format = row.format, .offset = row.offset});
         used[row.binding] = true;
     }
     if (used[0]) result.bindings.push_back({.binding = 0, .stride = sizeof(Vertex), .perInstance = false});

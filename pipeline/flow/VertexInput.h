@@ -9,7 +9,7 @@
 namespace crevice {
 
 struct VertexInput {
-    std::vector<VertexBinding> bindings;      ///< 0: mesh vertices, 1: instance rows; only those used.
+    std::vector<VertexBinding> bindings;  ///< 0: mesh vertices, 1: instance rows; only those used.
     std::vector<VertexAttribute> attributes;
 };
 

@@ -56,9 +56,11 @@ const MaterialSampler* findTexture(const Material& material, const std::string& 
 
 void reportUnwired(const WiringInputs& in, const ShaderResource& resource, Problems& problems) {
     problems.error(resource.where.line ? resource.where : in.stage.where,
-                   fmt::format("'{}' in effect '{}' is bound to nothing in stage '{}': no target, \"reads\" entry or texture property has this name",
+                   fmt::format("'{}' in effect '{}' is bound to nothing in stage '{}': no target, \"reads\" entry or "
+                               "texture property has this name",
                                resource.name, in.variant.effect, in.stage.name),
-                   fmt::format("declare a target '{0}', or wire it: \"reads\": {{ \"{0}\": \"TARGET\" }}, or give the pass a property '{0}' with the value white",
+                   fmt::format("declare a target '{0}', or wire it: \"reads\": {{ \"{0}\": \"TARGET\" }}, or give the "
+                               "pass a property '{0}' with the value white",
                                resource.name),
                    {{in.stage.where, fmt::format("stage '{}' is here", in.stage.name)}});
 }
@@ -66,15 +68,18 @@ void reportUnwired(const WiringInputs& in, const ShaderResource& resource, Probl
 void checkReadsAreUsed(const WiringInputs& in, Problems& problems) {
     std::vector<std::string> names;
     for (const ShaderResource& resource : in.variant.info.resources) {
-        if (resource.slot.set == 1 && (resource.kind == ResourceKind::CombinedSampler || resource.kind == ResourceKind::StorageImage)) {
+        if (resource.slot.set == 1 &&
+            (resource.kind == ResourceKind::CombinedSampler || resource.kind == ResourceKind::StorageImage)) {
             names.push_back(resource.name);
         }
     }
     for (const ReadWire& wire : in.stage.reads) {
         if (wire.shaderName.empty() || std::find(names.begin(), names.end(), wire.shaderName) != names.end()) continue;
-        problems.error(wire.where, fmt::format("\"reads\" of stage '{}' names '{}', and effect '{}' has no such sampler", in.stage.name,
-                                               wire.shaderName, in.variant.effect),
-                       names.empty() ? "the effect has no samplers of its own: remove the entry" : didYouMean(wire.shaderName, names, "samplers"));
+        problems.error(wire.where,
+                       fmt::format("\"reads\" of stage '{}' names '{}', and effect '{}' has no such sampler",
+                                   in.stage.name, wire.shaderName, in.variant.effect),
+                       names.empty() ? "the effect has no samplers of its own: remove the entry"
+                                     : didYouMean(wire.shaderName, names, "samplers"));
     }
 }
 
@@ -117,20 +122,26 @@ std::vector<Wire> wireShader(const WiringInputs& in, Problems& problems) {
     return wires;
 }
 
-std::vector<TargetRead> findReads(const PipelineDesc& pipeline, const EffectVariant& variant, const std::vector<Wire>& wires) {
+std::vector<TargetRead> findReads(const PipelineDesc& pipeline, const EffectVariant& variant,
+                                  const std::vector<Wire>& wires) {
     std::vector<TargetRead> reads;
     for (const ShaderResource& resource : variant.info.resources) {
         if (!resource.active) continue;
         const SourceLoc& where = resource.firstUse.line ? resource.firstUse : resource.where;
-        if (resource.slot.set == 0 && resource.kind == ResourceKind::CombinedSampler && pipeline.findTarget(resource.name)) {
+        if (resource.slot.set == 0 && resource.kind == ResourceKind::CombinedSampler &&
+            pipeline.findTarget(resource.name)) {
             reads.push_back({.target = resource.name, .shaderName = resource.name, .where = where});
             continue;
         }
         for (const Wire& wire : wires) {
             if (wire.slot != resource.slot || wire.target.empty() || (wire.storage && resource.writeOnly)) continue;
             if (wire.storage && !resource.readOnly) continue;  // read-modify-write: the declared write covers it
-            reads.push_back({.target = wire.target, .storage = wire.storage, .mip = wire.mip, .shaderName = resource.name,
-                             .where = where, .oneMip = wire.oneMip});
+            reads.push_back({.target = wire.target,
+                             .storage = wire.storage,
+                             .mip = wire.mip,
+                             .shaderName = resource.name,
+                             .where = where,
+                             .oneMip = wire.oneMip});
         }
     }
     return reads;

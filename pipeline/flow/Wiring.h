@@ -1,4 +1,5 @@
-// Names in a stage's shaders → targets and textures: who feeds which sampler of set 1, and what a shader therefore reads.
+// Names in a stage's shaders → targets and textures: who feeds which sampler of set 1, and what a shader therefore
+// reads.
 #pragma once
 
 #include <vector>
@@ -18,12 +19,13 @@ struct WiringInputs {
     bool sceneTextures = false;  ///< Texture properties may be filled by the scene's material.
 };
 
-/// Wires every sampler and image of set 1: by the stage's "reads", else to the target of the same name, else to the texture of the
-/// material's property; images that are written, to the stage's writes. Reports those bound to nothing.
+/// Wires every sampler and image of set 1: by the stage's "reads", else to the target of the same name, else to the
+/// texture of the material's property; images that are written, to the stage's writes. Reports those bound to nothing.
 std::vector<Wire> wireShader(const WiringInputs& inputs, Problems& problems);
 
 /// Targets that the shader statically uses: set 0 by name, set 1 by wire.
-std::vector<TargetRead> findReads(const PipelineDesc& pipeline, const EffectVariant& variant, const std::vector<Wire>& wires);
+std::vector<TargetRead> findReads(const PipelineDesc& pipeline, const EffectVariant& variant,
+                                  const std::vector<Wire>& wires);
 
 /// "name@2" → the level; -1 = all levels.
 std::pair<std::string, int> splitTarget(const std::string& target);
