@@ -26,7 +26,7 @@ install_packages() {
 }
 
 configure() {
-  [ -f build/build.ninja ] || cmake -S . -B build -G Ninja -DCMAKE_BUILD_TYPE=Release >/dev/null
+  [ -f build/build.ninja ] || cmake --preset release >/dev/null
 }
 
 build_program() {

@@ -90,7 +90,7 @@ struct OptionDesc {
 struct PipelineDesc {
     std::string name;
     std::string path;
-    std::vector<std::string> files;    ///< Every file that was read, parents first: the order in which names get numbers.
+    std::vector<std::string> files;  ///< Every file that was read, parents first: the order in which names get numbers.
     std::string help;
     std::string output;  ///< Target that a frame is read back from.
     SourceLoc outputWhere;

@@ -61,8 +61,8 @@ struct SceneTexture {
 };
 
 struct TextureRef {
-    int texture = -1;   ///< Index into Scene::textures, -1 = none.
-    int texcoord = 0;   ///< 0 or 1
+    int texture = -1;  ///< Index into Scene::textures, -1 = none.
+    int texcoord = 0;  ///< 0 or 1
     explicit operator bool() const { return texture >= 0; }
 };
 
@@ -73,7 +73,7 @@ struct SceneMaterial {
     std::string name;
     glm::vec4 baseColor{1};
     float metallic = 1, roughness = 1;
-    glm::vec3 emissive{0};           ///< Includes emissive strength.
+    glm::vec3 emissive{0};  ///< Includes emissive strength.
     float normalScale = 1, occlusionStrength = 1;
     TextureRef baseColorMap, metallicRoughnessMap, normalMap, occlusionMap, emissiveMap;
     AlphaMode alphaMode = AlphaMode::Opaque;
@@ -83,7 +83,7 @@ struct SceneMaterial {
 
 struct Instance {
     int mesh = 0;
-    int material = 0;   ///< Always valid: a default material is added for primitives without one.
+    int material = 0;  ///< Always valid: a default material is added for primitives without one.
     glm::mat4 world{1};
     std::string name;
     bool flipped = false;  ///< The matrix mirrors (negative determinant): front faces are clockwise in world space.
@@ -99,7 +99,7 @@ struct Light {
     float range = 0;
     float innerAngle = 0, outerAngle = 0.785398f;
     glm::vec3 position{0};
-    glm::vec3 direction{0, 0, -1};   ///< The way the light travels, unit length.
+    glm::vec3 direction{0, 0, -1};  ///< The way the light travels, unit length.
     bool castsShadow = true;
     std::string name;
 };
@@ -114,8 +114,8 @@ enum class FogType : std::uint8_t { None, Linear, Exp, Exp2 };
 struct Fog {
     FogType type = FogType::None;
     glm::vec3 color{0.5f};
-    float start = 0, end = 100;      ///< Linear: world units along the view ray.
-    float density = 0.01f;           ///< Exp and exp²: per world unit.
+    float start = 0, end = 100;  ///< Linear: world units along the view ray.
+    float density = 0.01f;       ///< Exp and exp²: per world unit.
 };
 
 /// What SkyboxStage shows behind everything: a vertical gradient, or nothing (the background colour).
@@ -135,9 +135,9 @@ struct Scene {
     std::optional<Ambient> ambient;  ///< Nothing: addDefaultLight() decides.
     Fog fog;
     Sky sky;
-    std::optional<float> exposureEv; ///< Nothing = automatic.
+    std::optional<float> exposureEv;  ///< Nothing = automatic.
 
-    Aabb bounds() const;             ///< World space, all instances.
+    Aabb bounds() const;  ///< World space, all instances.
 };
 
 /// A key light and ambient for a scene without any light: documented in docs/scenes.md. Returns true when it added one.

@@ -21,8 +21,7 @@ bool compiles(EffectLibrary& library, const VariantRequest& request, EffectVaria
 /// The sizes that C++ fills and the rule that set 1 holds nothing of the pipeline's own.
 void expectContract(const ShaderInfo& info) {
     const std::map<std::string, std::uint32_t> sizes = {{"CCGlobal", 48},     {"CCCamera", 544}, {"CCShadow", 304},
-                                                        {"CCSpotShadow", 96},     {"CCSsao", 1040},
-                                                        {"CCLocal", 144}};
+                                                        {"CCSpotShadow", 96}, {"CCSsao", 1040},  {"CCLocal", 144}};
     for (const ShaderResource& resource : info.resources) {
         const auto size = sizes.find(resource.name);
         EXPECT_TRUE(size == sizes.end() || size->second == resource.size) << resource.name << ": " << resource.size;
