@@ -73,11 +73,12 @@ StageExecution::ShaderGpu StageExecution::makeShader(const EffectVariant& varian
 }
 
 const Pipeline& StageExecution::makePipeline(const EffectVariant& variant, const PipelineLayout& layout,
-                                             const RenderState& state) {
+                                             RenderState state) {
     const VertexInput input = vertexInput(variant);
+    if (!depthReadOnly_.empty()) state.depthWrite = false;  // the attachment is read-only, whatever the effect says
     return context_.pipelines.get(GraphicsPipelineDesc{.vertex = variant.vertex,
                                                        .fragment = variant.fragment,
-                                                       .state = state,
+                                                       .state = std::move(state),
                                                        .vertexBindings = input.bindings,
                                                        .vertexAttributes = input.attributes,
                                                        .colorFormats = colorFormats_,

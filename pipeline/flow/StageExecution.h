@@ -64,7 +64,7 @@ private:
         bool usesLocal = false;
     };
     ShaderGpu makeShader(const EffectVariant& variant, const Material& material, bool surface, bool doubleSided);
-    const Pipeline& makePipeline(const EffectVariant& variant, const PipelineLayout& layout, const RenderState& state);
+    const Pipeline& makePipeline(const EffectVariant& variant, const PipelineLayout& layout, RenderState state);
     void writeShaderTargets(ShaderGpu& shader, const std::vector<Wire>& wires);
     void bindShader(const ShaderGpu& shader, bool flipped);
     void drawBatch(const ShaderGpu& shader, const DrawBatch& batch, std::span<const std::uint32_t> instances);
