@@ -67,4 +67,14 @@ struct LocalBlock {
 };
 static_assert(sizeof(LocalBlock) == 144);
 
+/// Cocos' deferred light block, `CCForwardLight`, for imported effects: at most ten lights, struct of arrays.
+inline constexpr int kForwardLights = 10;
+struct ForwardLightBlock {
+    glm::vec4 position[kForwardLights]{};        ///< world; w: 0 sphere, 1 spot
+    glm::vec4 color[kForwardLights]{};           ///< rgb linear; w = luminous intensity
+    glm::vec4 sizeRangeAngle[kForwardLights]{};  ///< size, range, cosine of the spot's outer angle
+    glm::vec4 direction[kForwardLights]{};       ///< the way a spot travels; [0].w = number of lights
+};
+static_assert(sizeof(ForwardLightBlock) == 64 * kForwardLights);
+
 }  // namespace crevice

@@ -75,6 +75,22 @@ std::vector<std::byte> punctualLights(const Scene& scene) {
     return bytes;
 }
 
+ForwardLightBlock forwardLightBlock(const Scene& scene) {
+    ForwardLightBlock block;
+    int count = 0;
+    for (const Light& light : scene.lights) {
+        if (light.type == LightType::Directional || count == kForwardLights) continue;
+        const bool spot = light.type == LightType::Spot;
+        block.position[count] = glm::vec4(light.position, spot ? 1.0f : 0.0f);
+        block.color[count] = glm::vec4(light.color, light.intensity);
+        block.sizeRangeAngle[count] = {0.0f, light.range, spot ? std::cos(light.outerAngle) : 0.0f, 0.0f};
+        block.direction[count] = glm::vec4(light.direction, 0.0f);
+        ++count;
+    }
+    block.direction[0].w = static_cast<float>(count);
+    return block;
+}
+
 float exposureFromEv(float ev) { return 1.0f / (1.2f * std::exp2(ev)); }
 
 float autoExposureEv(const Scene& scene) {

@@ -17,6 +17,9 @@ CameraBlock cameraBlock(const FrameView& view, const Scene& scene);
 /// in the scene's order; further directional lights have type 2.
 std::vector<std::byte> punctualLights(const Scene& scene);
 
+/// The first ten point and spot lights.
+ForwardLightBlock forwardLightBlock(const Scene& scene);
+
 /// Factor from scene luminance to 1.0 for an exposure value at ISO 100: 1 / (1.2 · 2^EV)
 /// (S. Lagarde, C. de Rousiers: Moving Frostbite to PBR, 2014, section 5.1).
 float exposureFromEv(float ev);

@@ -1,4 +1,4 @@
-// A ring of CCLocal slices; CCForwardLight stays zero until imported effects fill it.
+// A ring of CCLocal slices, and the lights behind it.
 #include "flow/LocalSet.h"
 
 #include <fmt/format.h>
@@ -14,7 +14,7 @@ constexpr std::uint32_t kLocalBinding = 0;
 constexpr std::uint32_t kForwardLightBinding = 1;
 constexpr std::uint64_t kSlice = 256;  // the largest alignment Vulkan allows for dynamic offsets
 constexpr std::uint64_t kSlices = 16384;
-constexpr std::uint64_t kForwardLightBytes = 1024;
+constexpr std::uint64_t kForwardLightBytes = sizeof(ForwardLightBlock);
 
 }  // namespace
 
@@ -30,6 +30,10 @@ LocalSet::LocalSet(Device& device, DescriptorPool& pool)
     set_.writeUniformBuffer(kLocalBinding, ring_, 0, sizeof(LocalBlock));
     set_.writeUniformBuffer(kForwardLightBinding, ring_, kSlices * kSlice, kForwardLightBytes);
     set_.update();
+}
+
+void LocalSet::writeLights(const ForwardLightBlock& lights) {
+    ring_.write(std::as_bytes(std::span(&lights, 1)), kSlices * kSlice);
 }
 
 void LocalSet::bind(Commands& commands, const glm::mat4& world) {

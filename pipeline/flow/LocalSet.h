@@ -14,6 +14,8 @@ public:
 
     const SetLayout& setLayout() const { return setLayout_; }
     void beginFrame() { head_ = 0; }
+    /// The scene's lights; the GPU must be idle.
+    void writeLights(const ForwardLightBlock& lights);
     /// Binds a new slice with the object's matrices. Throws RenderError when a frame draws too many such objects.
     void bind(Commands& commands, const glm::mat4& world);
 

@@ -73,6 +73,7 @@ void RenderPipeline::prepare(const Scene& scene) {
     lights_ =
         Buffer(device_, {.size = lights.size(), .usage = BufferUsage::Storage, .name = "punctual lights"}, lights);
     globals_.writeBuffer("CCPunctualLights", lights_);
+    locals_.writeLights(forwardLightBlock(scene));
     globals_.update();
     targets_ = std::make_unique<TargetPool>(device_, program_.desc(), program_.plan());
     context_ = std::make_unique<ExecutionContext>(ExecutionContext{{device_, pool_, samplers_, defaults_},
