@@ -36,7 +36,10 @@ int parseAndRun(int argc, char** argv) {
     CLI::App program("Render pipelines written as JSON documents", "crevice");
     Action action;
     program.set_version_flag("--version", "crevice " CREVICE_VERSION, "Print the version");
-    program.footer("`crevice COMMAND --help` tells more and shows examples.");
+    program.footer(
+        "Examples:\n"
+        "  crevice render default -o default.png\n"
+        "  crevice render --help\n");
     addCommands(program, action);
     try {
         program.parse(prepareArguments(argc, argv));

@@ -36,8 +36,6 @@ std::optional<FramePlace> findFramePlace(const std::string& name) {
     return std::nullopt;
 }
 
-std::string shellName(const std::string& path) { return path.empty() ? "OUT" : path; }
-
 std::vector<RenderItem> planItems(const RenderOptions& options, const AssetRoots& roots) {
     if (options.scenes.empty()) {
         throw Error("no scene given",
@@ -49,7 +47,7 @@ std::vector<RenderItem> planItems(const RenderOptions& options, const AssetRoots
     const bool isFolder = options.out.ends_with('/') || fs::is_directory(out, failed);
     if (options.scenes.size() > 1 && !isFolder) {
         throw Error(fmt::format("-o: {} scenes cannot go into the one file '{}'", options.scenes.size(), options.out),
-                    fmt::format("name a folder: mkdir -p {0} and -o {0}/", shellName(out.stem().string())));
+                    fmt::format("name an existing folder: -o {}/", out.stem().string()));
     }
     std::vector<RenderItem> items;
     std::set<fs::path> taken;

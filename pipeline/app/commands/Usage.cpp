@@ -72,9 +72,9 @@ Error explainUsage(const CLI::App& program, const CLI::Error& error) {
     }
     if (dynamic_cast<const CLI::ArgumentMismatch*>(&error)) {
         const std::string name = text.substr(0, text.find(':'));
-        const bool missing = text.find("required") != std::string::npos || text.find("missing") != std::string::npos;
-        return Error(missing ? fmt::format("option '{}' needs a value", name)
-                             : fmt::format("option '{}' is given more than once", name),
+        const bool repeated = text.find("received") != std::string::npos;  // "At most 1 required but received 2"
+        return Error(repeated ? fmt::format("option '{}' is given more than once", name)
+                              : fmt::format("option '{}' needs a value", name),
                      helpCommand);
     }
     return Error(text, helpCommand);

@@ -1,0 +1,187 @@
+// What the commands without a device print, and their exit codes.
+#include <nlohmann/json.hpp>
+
+#include "CliTools.h"
+#include "core/Image.h"
+
+namespace crevice::cli {
+namespace {
+
+using nlohmann::json;
+
+class CommandsTest : public CliTest {
+protected:
+    bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+};
+
+constexpr const char* kBrokenEffect = R"(CCEffect %{
+  techniques:
+  - passes:
+    - vert: fullscreen-vs
+      frag: broken-fs
+}%
+CCProgram broken-fs %{
+  precision highp float;
+  in vec2 v_uv;
+  layout(location = 0) out vec4 color;
+  void main() { color = nothing; }
+}%
+)";
+
+TEST_F(CommandsTest, ValidateTellsOfEachPipeline) {
+    const Outcome good = run("validate ssao-deferred deferred -q");
+    EXPECT_EQ(good.code, 0) << good.err;
+    EXPECT_TRUE(good.out.starts_with("ssao-deferred: ok, ")) << good.out;
+    EXPECT_TRUE(has(good.out, "\ndeferred: ok, ")) << good.out;
+    const Outcome mixed = run("validate nosuch deferred -q");
+    EXPECT_EQ(mixed.code, 2);
+    EXPECT_TRUE(mixed.out.starts_with("deferred: ok, ")) << mixed.out;
+    EXPECT_TRUE(has(mixed.err, "no pipeline named 'nosuch'"));
+}
+
+TEST_F(CommandsTest, ValidateCompilesShadersAndNamesTheLine) {
+    write("broken.effect", kBrokenEffect);
+    write("own.pipeline.json",
+          R"({"extends": "deferred", "edits": [{"set": "PostProcessStage", "effect": "broken.effect"}]})");
+    const Outcome outcome = run("validate own.pipeline.json");
+    EXPECT_EQ(outcome.code, 2);
+    EXPECT_EQ(outcome.out, "");
+    EXPECT_TRUE(has(outcome.err, "broken.effect:11:")) << outcome.err;
+}
+
+TEST_F(CommandsTest, FlattenResolvesOptions) {
+    const Outcome kept = run("flatten ssao-deferred --option ssao=false");
+    EXPECT_EQ(kept.code, 0) << kept.err;
+    EXPECT_TRUE(has(kept.out, "\"$ssao\""));
+    EXPECT_TRUE(has(kept.out, "// "));
+    const Outcome resolved = run("flatten ssao-deferred --resolve --option ssao=false");
+    EXPECT_EQ(resolved.code, 0) << resolved.err;
+    EXPECT_FALSE(has(resolved.out, "\"$ssao\""));
+    write("flat.pipeline.json", resolved.out);
+    EXPECT_EQ(run("validate flat.pipeline.json -q").code, 0);
+}
+
+TEST_F(CommandsTest, PlanFollowsOptions) {
+    const Outcome on = run("plan ssao-deferred");
+    EXPECT_EQ(on.code, 0) << on.err;
+    EXPECT_TRUE(has(on.out, "SsaoStage")) << on.out;
+    EXPECT_TRUE(has(on.out, "cc_ssaoBlurMap 13")) << on.out;
+    const Outcome off = run("plan ssao-deferred --option ssao=false -q");
+    EXPECT_EQ(off.code, 0);
+    EXPECT_TRUE(has(off.out, "Disabled: SsaoStage")) << off.out;
+    EXPECT_FALSE(has(off.out, " 4 SsaoStage"));
+    EXPECT_TRUE(has(on.out, " 4 SsaoStage"));
+    EXPECT_TRUE(run("plan deferred --dot -q").out.starts_with("digraph"));
+    EXPECT_TRUE(has(run("plan deferred crease --size 640x360 -q").out, "640×360"));
+}
+
+TEST_F(CommandsTest, StagesShowParameters) {
+    const Outcome list = run("stages");
+    EXPECT_EQ(list.code, 0);
+    EXPECT_TRUE(has(list.out, "SsaoStage         12"));
+    EXPECT_TRUE(has(run("stages SsaoStage").out, "seed       uint"));
+    EXPECT_TRUE(has(run("stages --markdown").out, "## SsaoStage\n"));
+    const json all = json::parse(run("stages --json").out);
+    const auto ssao =
+        std::find_if(all.begin(), all.end(), [](const json& stage) { return stage["class"] == "SsaoStage"; });
+    ASSERT_NE(ssao, all.end());
+    EXPECT_EQ((*ssao)["priority"], 12);
+    EXPECT_EQ((*ssao)["params"][0]["key"], "seed");
+    EXPECT_EQ((*ssao)["params"][0]["schema"]["minimum"], 0);
+}
+
+TEST_F(CommandsTest, SchemaGoesToAFileOrOut) {
+    const Outcome out = run("schema");
+    EXPECT_EQ(out.code, 0);
+    EXPECT_TRUE(has(json::parse(out.out).dump(), "SsaoStage"));
+    const Outcome file = run("schema -o pipeline.schema.json");
+    EXPECT_EQ(file.out, "pipeline.schema.json\n");
+    EXPECT_EQ(files(), std::vector<std::string>{"pipeline.schema.json"});
+}
+
+TEST_F(CommandsTest, EffectsAreListedAndShown) {
+    EXPECT_TRUE(has(run("effects list").out, "\nssao "));
+    EXPECT_EQ(run("effects").out, run("effects list").out);
+    const Outcome show = run("effects show ssao -p ssao-deferred");
+    EXPECT_EQ(show.code, 0) << show.err;
+    EXPECT_TRUE(has(show.out, "SSAO_SAMPLES  64       1 … 64")) << show.out;
+    EXPECT_TRUE(has(show.out, "CCSsao                uniform block  0    12")) << show.out;
+}
+
+TEST_F(CommandsTest, EffectsCompileTellsYesAndNo) {
+    write("broken.effect", kBrokenEffect);
+    const Outcome good = run("effects compile copy vignette");
+    EXPECT_EQ(good.code, 0) << good.err;
+    EXPECT_TRUE(has(good.out, "ok     copy technique 0 pass 0 (default)"));
+    EXPECT_TRUE(has(good.out, "2 compiled, 0 failed; 2 effects\n"));
+    const Outcome bad = run("effects compile broken.effect copy");
+    EXPECT_EQ(bad.code, 1);
+    EXPECT_TRUE(has(bad.out, "FAILED broken.effect technique 0 pass 0"));
+    EXPECT_TRUE(has(bad.out, "1 compiled, 1 failed; 2 effects\n"));
+    EXPECT_TRUE(has(bad.err, "broken.effect:11:")) << bad.err;
+    const json results = json::parse(run("effects compile broken.effect copy --json -q").out);
+    EXPECT_EQ(results[0]["ok"], false);
+    EXPECT_EQ(results[1]["ok"], true);
+    EXPECT_GT(results[1]["bytes"]["fragment"], 0);
+}
+
+TEST_F(CommandsTest, EffectsCompileTakesMacros) {
+    const json all = json::parse(run("effects compile ssao --all-variants --json").out);
+    EXPECT_EQ(all.size(), 4u);  // two ends of SSAO_SAMPLES, SSAO_BAKED on and off
+    const json given = json::parse(run("effects compile ssao --define SSAO_SAMPLES=16 --all-variants --json").out);
+    ASSERT_EQ(given.size(), 2u);
+    EXPECT_EQ(given[0]["defines"]["SSAO_SAMPLES"], "16");
+    EXPECT_TRUE(has(run("effects compile copy --text").out, "#version 450"));
+}
+
+TEST_F(CommandsTest, InfoDescribesScenes) {
+    const Outcome scene = run("info default");
+    EXPECT_EQ(scene.code, 0) << scene.err;
+    for (const char* word : {"meshes", "triangles", "materials", "lights", "0 'walk'", "auto radius", "exposure"}) {
+        EXPECT_TRUE(has(scene.out, word)) << word;
+    }
+    const Outcome devices = run("info");
+    EXPECT_EQ(devices.code, 0) << devices.err;
+    EXPECT_TRUE(has(devices.out, "R11G11B10F"));
+}
+
+TEST_F(CommandsTest, CompareMeasures) {
+    Image a(2, 1, Format::RGBA8), b(2, 1, Format::RGBA8);
+    for (Image* image : {&a, &b}) {
+        for (std::uint32_t x = 0; x < 2; ++x) image->pixel(x, 0)[3] = std::byte{255};
+    }
+    b.pixel(1, 0)[0] = std::byte{51};  // 0.2 in one of six values
+    writeImage(path("a.png"), a);
+    writeImage(path("b.png"), b);
+    writeImage(path("wide.png"), Image(3, 1, Format::RGBA8));
+    const Outcome equal = run("compare a.png a.png");
+    EXPECT_EQ(equal.code, 0);
+    EXPECT_EQ(equal.out, "rmse      0\nmax       0\nmean abs  r 0  g 0  b 0\npsnr      infinite\n");
+    const Outcome different = run("compare a.png b.png --heat heat.png");
+    EXPECT_EQ(different.code, 1);
+    EXPECT_EQ(different.out,
+              "rmse      0.0816497\nmax       0.2\nmean abs  r 0.1  g 0  b 0\npsnr      21.76 dB\nheat.png\n");
+    const Image heat = readImage(path("heat.png"));
+    EXPECT_EQ(heat.at(0, 0), glm::vec4(0, 0, 0, 1));
+    EXPECT_EQ(heat.at(1, 0), glm::vec4(1, 1, 1, 1));
+    EXPECT_EQ(run("compare a.png b.png --rmse 0.09").code, 0);
+    EXPECT_EQ(run("compare a.png b.png --rmse 0.08").code, 1);
+    EXPECT_EQ(run("compare a.png b.png --rmse 0.09 --max 0.1").code, 1);
+    EXPECT_EQ(run("compare a.png b.png --max 0.21").code, 0);
+    expectRefused("compare a.png wide.png", "the sizes differ: 'a.png' is 2x1, 'wide.png' is 3x1", "same --size", 1);
+    EXPECT_EQ(run("compare a.png gone.png").code, 2);
+}
+
+TEST_F(CommandsTest, AClosedPipeIsNoFailureAFullDiskIs) {
+    const Outcome closed = runWith({"schema"}, Stream::ClosedPipe, Stream::Read);
+    EXPECT_EQ(closed.code, 0);
+    EXPECT_EQ(closed.err, "");
+    for (const char* command : {"schema", "--version"}) {
+        const Outcome full = runWith({command}, Stream::FullDisk, Stream::Read);
+        EXPECT_EQ(full.code, 1) << command;
+        EXPECT_TRUE(has(full.err, "error: the results cannot be written")) << full.err;
+    }
+}
+
+}  // namespace
+}  // namespace crevice::cli
