@@ -24,49 +24,52 @@ public:
         return (shifted >> rotation) | (shifted << ((32u - rotation) & 31u));
     }
     /// [0, 1) in steps of 2^-24.
-    float unit() { return static_cast<float>(next() >> 8u) * 0x1p-24f; }
+    double unit() { return (next() >> 8u) * 0x1p-24; }
 
 private:
     static constexpr std::uint64_t kIncrement = 1442695040888963407ull;
     std::uint64_t state_;
 };
 
-float ladder(float t) { return 0.1f + 0.9f * t * t; }
+double ladder(double t) { return 0.1 + 0.9 * t * t; }
 
-glm::vec3 articleDirection(Pcg32& random) {
-    const float x = random.unit() * 2.0f - 1.0f;
-    const float y = random.unit() * 2.0f - 1.0f;
-    const float z = random.unit() + 0.01f;
-    return glm::vec3(x, y, z) / std::sqrt(x * x + y * y + z * z);
+double fraction(double x) { return x - std::floor(x); }
+
+glm::dvec3 articleDirection(Pcg32& random) {
+    const double x = random.unit() * 2 - 1;
+    const double y = random.unit() * 2 - 1;
+    const double z = random.unit() + 0.01;
+    return glm::dvec3(x, y, z) / std::sqrt(x * x + y * y + z * z);
 }
 
 /// Malley's method: uniform on the disc, lifted to the hemisphere, is cosine-weighted. `kMinZ` keeps samples off the
 /// plane.
-glm::vec3 cosineDirection(float u, float v) {
-    constexpr float kMinZ = 0.05f;
-    const float r = std::sqrt(u * (1.0f - kMinZ * kMinZ));
-    const float phi = 6.28318530718f * v;
-    return {r * std::cos(phi), r * std::sin(phi), std::sqrt(1.0f - r * r)};
+glm::dvec3 cosineDirection(double u, double v) {
+    constexpr double kMinZ = 0.05;
+    const double r = std::sqrt(u * (1 - kMinZ * kMinZ));
+    const double phi = 6.283185307179586 * v;
+    return {r * std::cos(phi), r * std::sin(phi), std::sqrt(1 - r * r)};
 }
 
-float fraction(double x) { return static_cast<float>(x - std::floor(x)); }
+/// Steps of 2^-20: libraries whose cosines differ in the last bit still give the same kernel.
+glm::vec4 rounded(const glm::dvec3& sample) { return {glm::vec3(glm::round(sample * 0x1p20) * 0x1p-20), 0}; }
 
 }  // namespace
 
 void makeSsaoKernel(SsaoKernelKind kind, std::uint32_t seed, std::span<glm::vec4> samples) {
     Pcg32 random(seed);
-    const auto count = static_cast<float>(samples.size());
+    const auto count = static_cast<double>(samples.size());
     const double shiftU = random.unit();
     const double shiftV = random.unit();
     for (std::size_t i = 0; i < samples.size(); ++i) {
-        const auto index = static_cast<float>(i);
+        const auto index = static_cast<double>(i);
         if (kind == SsaoKernelKind::Article) {
-            samples[i] = glm::vec4(articleDirection(random) * ladder(index / count), 0.0f);
+            samples[i] = rounded(articleDirection(random) * ladder(index / count));
         } else {
             // R2: multiples of 1/p and 1/p², p the plastic number.
-            const float u = fraction(shiftU + static_cast<double>(i) * 0.7548776662466927);
-            const float v = fraction(shiftV + static_cast<double>(i) * 0.5698402909980532);
-            samples[i] = glm::vec4(cosineDirection(u, v) * ladder((index + 0.5f) / count), 0.0f);
+            const double u = fraction(shiftU + index * 0.7548776662466927);
+            const double v = fraction(shiftV + index * 0.5698402909980532);
+            samples[i] = rounded(cosineDirection(u, v) * ladder((index + 0.5) / count));
         }
     }
 }
