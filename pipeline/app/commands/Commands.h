@@ -13,6 +13,7 @@ namespace crevice {
 using Action = std::function<int()>;
 
 void addRenderCommand(CLI::App& program, Action& action);
+void addSheetCommand(CLI::App& program, Action& action);
 void addValidateCommand(CLI::App& program, Action& action);
 void addFlattenCommand(CLI::App& program, Action& action);
 void addPlanCommand(CLI::App& program, Action& action);

@@ -22,6 +22,7 @@ void reportError(const std::string& text) { std::fprintf(stderr, "%s\n", text.c_
 
 void addCommands(CLI::App& program, Action& action) {
     addRenderCommand(program, action);
+    addSheetCommand(program, action);
     addValidateCommand(program, action);
     addFlattenCommand(program, action);
     addPlanCommand(program, action);

@@ -31,7 +31,7 @@ constexpr glm::u8vec4 kPaper{24, 24, 26, 255}, kInk{214, 214, 208, 255};
 struct SheetOptions {
     std::vector<std::string> scenes;
     std::string pipeline = kDefaultPipeline;
-    std::string out, columns, device, size = "480x270";
+    std::string out, columns, device, size = "480x270", background = "#3c3e42";
     PipelineOptions pipelineOptions;
     ConsoleOptions console;
     bool noDefaultLight = false;
@@ -42,9 +42,7 @@ struct Layout {
     glm::uvec2 tile;
     std::uint32_t columns, rows;
     std::uint32_t labelHeight = textSize("A", kLetterScale).y + kGap;
-    glm::uvec2 size() const {
-        return {columns * (tile.x + kGap) + kGap, rows * (tile.y + labelHeight + kGap) + kGap};
-    }
+    glm::uvec2 size() const { return {columns * (tile.x + kGap) + kGap, rows * (tile.y + labelHeight + kGap) + kGap}; }
     glm::uvec2 place(std::uint32_t index) const {
         const std::uint32_t column = index % columns, row = index / columns;
         return {kGap + column * (tile.x + kGap), kGap + row * (tile.y + labelHeight + kGap)};
@@ -101,6 +99,10 @@ int runSheet(const SheetOptions& options) {
     const PipelineChoice pipeline(options.pipeline, options.pipelineOptions);
     const std::vector<SceneFile> scenes = findScenes(options, pipeline.roots());
     const Layout layout = planLayout(options);
+    const View view{.width = layout.tile.x,
+                    .height = layout.tile.y,
+                    .camera = {},
+                    .background = parseColor("--background", options.background)};
     Progress progress(options.console.quiet);
     Renderer renderer({.device = options.device,
                        .defaultLight = !options.noDefaultLight,
@@ -112,7 +114,7 @@ int runSheet(const SheetOptions& options) {
     for (std::uint32_t i = 0; i < scenes.size(); ++i) {
         progress.show(fmt::format("{}/{} {} …", i + 1, scenes.size(), scenes[i].name));
         renderer.setScene(loadSceneFile(scenes[i], pipeline.roots(), renderer.log()));
-        placeTile(sheet, layout, i, renderer.render({.width = layout.tile.x, .height = layout.tile.y}), scenes[i].name);
+        placeTile(sheet, layout, i, renderer.render(view), scenes[i].name);
     }
     progress.clear();
     OutputFiles files;
@@ -134,6 +136,9 @@ void addSheetCommand(CLI::App& program, Action& action) {
     command->add_option("-o,--out", options->out, "Picture to write, .png or .exr")->type_name("OUT");
     command->add_option("--columns", options->columns, "Tiles side by side; default as many as rows")->type_name("N");
     command->add_option("--size", options->size, "Pixels of a tile")->type_name("WxH")->capture_default_str();
+    command->add_option("--background", options->background, "Behind scenes without a sky")
+        ->type_name("COLOR")
+        ->capture_default_str();
     command->add_option("--device", options->device, "Device to use: see `crevice info`")->type_name("NAME|INDEX");
     command->add_flag("--no-default-light", options->noDefaultLight, "Leave scenes without lights dark");
     addPipelineOptions(*command, options->pipelineOptions);

@@ -11,8 +11,8 @@ namespace crevice {
 
 /// Pixels that a text takes; each dot is `scale` pixels wide and high.
 glm::uvec2 textSize(std::string_view text, std::uint32_t scale);
-/// Writes capitals, digits, "-", "_" and "." into an RGBA8 image, top left at (x, y); other bytes are drawn as "-". What
-/// lies outside the image is left out.
+/// Writes capitals, digits, "-", "_" and "." into an RGBA8 image, top left at (x, y); other bytes are drawn as "-".
+/// What lies outside the image is left out.
 void drawText(Image& image, std::uint32_t x, std::uint32_t y, std::string_view text, std::uint32_t scale,
               glm::u8vec4 color);
 

@@ -14,8 +14,8 @@ namespace crevice {
 namespace {
 
 /// Options whose value may begin with a minus sign.
-constexpr std::array kSignedOptions = {"--eye", "--target", "--up",     "--fov",  "--ortho", "--near",
-                                       "--far", "--size",   "--frames", "--seed", "--rmse",  "--max"};
+constexpr std::array kSignedOptions = {"--eye",  "--target", "--up",   "--fov",  "--ortho", "--near",   "--far",
+                                       "--size", "--frames", "--seed", "--rmse", "--max",   "--columns"};
 
 const CLI::App& deepest(const CLI::App& app) {
     for (const CLI::App* sub : app.get_subcommands({})) {
