@@ -67,22 +67,30 @@ Camera Camera::lookAt(const glm::vec3& eye, const glm::vec3& target, const glm::
 Camera frameBounds(const Aabb& bounds, float fovY, float aspect) {
     Aabb box = bounds;
     if (box.empty) box.add(glm::vec3(0));
-    const glm::vec3 backward = glm::normalize(glm::vec3(0.6f, 0.45f, 1.0f));
+    const glm::vec3 backward = glm::normalize(glm::vec3(0.6f, 0.7f, 1.0f));
     const glm::vec3 right = glm::normalize(glm::cross(glm::vec3(0, 1, 0), backward));
     const glm::vec3 up = glm::cross(backward, right);
     const float tanV = std::tan(0.5f * fovY);
     const float tanH = tanV * aspect;
 
-    // Every corner must lie inside the frustum: its sideways offset within tan(half angle) of its depth.
-    float distance = 0;
+    // Every corner must lie inside the frustum. A camera moved sideways by x to a distance D from the centre sees a
+    // corner (r to the right, t towards it) when |r - x| <= tanH (D - t): the corner farthest out on each side bounds
+    // D, and x makes both bounds equal. Up and down likewise.
+    float rightmost = 0, leftmost = 0, highest = 0, lowest = 0;
     for (const glm::vec3& corner : corners(box)) {
         const glm::vec3 c = kFrameMargin * (corner - box.centre());
         const float towards = glm::dot(c, backward);
-        distance = std::max(
-            {distance, std::abs(glm::dot(c, right)) / tanH + towards, std::abs(glm::dot(c, up)) / tanV + towards});
+        const float sideways = glm::dot(c, right) / tanH, upwards = glm::dot(c, up) / tanV;
+        rightmost = std::max(rightmost, towards + sideways);
+        leftmost = std::max(leftmost, towards - sideways);
+        highest = std::max(highest, towards + upwards);
+        lowest = std::max(lowest, towards - upwards);
     }
+    float distance = 0.5f * std::max(rightmost + leftmost, highest + lowest);
     if (distance <= 0) distance = 1;  // a single point
-    Camera camera = Camera::lookAt(box.centre() + distance * backward, box.centre());
+    const glm::vec3 target =
+        box.centre() + 0.5f * (tanH * (rightmost - leftmost) * right + tanV * (highest - lowest) * up);
+    Camera camera = Camera::lookAt(target + distance * backward, target);
     camera.fovY = fovY;
     fitNearFar(camera, box);
     return camera;

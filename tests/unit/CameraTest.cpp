@@ -93,16 +93,21 @@ TEST(Camera, FramesBoxesOfEverySize) {
             const Camera camera = frameBounds(box, glm::radians(40.0f), aspect);
             const glm::mat4 viewProjection = camera.projection(aspect) * camera.view;
             float widest = 0;
+            glm::vec2 least(1), most(-1);
             for (int i = 0; i < 8; ++i) {
                 const glm::vec3 corner(i & 1 ? box.max.x : box.min.x, i & 2 ? box.max.y : box.min.y,
                                        i & 4 ? box.max.z : box.min.z);
                 const glm::vec3 ndc = toNdc(viewProjection, corner);
                 widest = std::max({widest, std::abs(ndc.x), std::abs(ndc.y)});
+                least = glm::min(least, glm::vec2(ndc));
+                most = glm::max(most, glm::vec2(ndc));
                 EXPECT_GE(ndc.z, 0) << size;
                 EXPECT_LE(ndc.z, 1) << size;
             }
             EXPECT_LE(widest, 1) << size << " " << aspect;
             EXPECT_GE(widest, 0.8f) << size << " " << aspect;  // and not from far away
+            const glm::vec2 extent = most - least;             // the tighter direction is centred
+            EXPECT_NEAR(extent.x > extent.y ? least.x + most.x : least.y + most.y, 0, 0.02f) << size << " " << aspect;
         }
 }
 
