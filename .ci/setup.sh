@@ -1,5 +1,8 @@
 # Sourced by run.sh, test.sh and CI: packages and builds, both quick when there is nothing to do.
 
+# Compiler results are shared between checkouts: paths count from the top of each.
+export CCACHE_BASEDIR=$PWD CCACHE_NOHASHDIR=true
+
 packages=(
   g++ cmake ninja-build pkg-config ccache mold
   libvulkan-dev mesa-vulkan-drivers vulkan-validationlayers
