@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include <fcntl.h>
+#include <signal.h>
 #include <spawn.h>
 #include <stdlib.h>
 #include <sys/wait.h>
@@ -114,6 +115,22 @@ Outcome CliTest::runWith(const std::vector<std::string>& arguments, Stream out, 
 }
 
 Outcome CliTest::run(const std::string& arguments) { return run(splitWords(arguments)); }
+
+Outcome CliTest::runInterrupted(const std::string& arguments) {
+    const int null = ::open("/dev/null", O_WRONLY | O_CLOEXEC);
+    const pid_t child = spawn(splitWords(arguments), folder_, null, null);
+    ::close(null);
+    if (child < 0) return {};
+    int status = 0;
+    pid_t ended = 0;
+    while (files().empty() && (ended = waitpid(child, &status, WNOHANG)) == 0) usleep(1000);
+    EXPECT_EQ(ended, 0) << "it ended before it wrote anything";
+    kill(child, SIGTERM);
+    waitpid(child, &status, 0);
+    Outcome outcome;
+    if (WIFEXITED(status)) outcome.code = WEXITSTATUS(status);
+    return outcome;
+}
 
 void CliTest::write(const std::string& name, const std::string& text) const {
     std::ofstream(folder_ / name, std::ios::binary) << text;

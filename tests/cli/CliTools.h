@@ -28,6 +28,9 @@ protected:
     /// One string, split at spaces.
     Outcome run(const std::string& arguments);
 
+    /// Sends SIGTERM as soon as a file appears. Code -1 when that ended the program.
+    Outcome runInterrupted(const std::string& arguments);
+
     void write(const std::string& name, const std::string& text) const;
     /// Everything in the working folder, hidden files included, sorted, as relative paths.
     std::vector<std::string> files() const;

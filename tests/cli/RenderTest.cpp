@@ -189,6 +189,11 @@ TEST_F(RenderTest, NothingIsLeftWhenALaterSceneFails) {
     EXPECT_EQ(files(), Names{"bad.gltf"});
 }
 
+TEST_F(RenderTest, NothingIsLeftWhenItIsInterrupted) {
+    EXPECT_EQ(runInterrupted("render crease -o f%d.png --frames 1000 --size 64x64").code, -1);
+    EXPECT_EQ(files(), Names{});
+}
+
 TEST_F(RenderTest, AnOldPictureStaysWhenTheNewOneFails) {
     write("a.png", "old");
     EXPECT_EQ(run("render crease -o a.png --size 16x16 --set SsaoStage.seed=x").code, 2);

@@ -55,7 +55,7 @@ void printFormats(const Device& device) {
 
 int printDeviceInfo(const InfoOptions& options, const Log& log) {
     const std::vector<DeviceInfo> devices = Device::listDevices();
-    printDevices(devices);
+    if (!devices.empty()) printDevices(devices);
     const Device device({.log = log, .device = options.device});
     constexpr double kMiB = 1 << 20;
     print(fmt::format("\nin use: {} ({}), {:.0f} MiB of device memory\n", device.deviceName(), device.driverInfo(),

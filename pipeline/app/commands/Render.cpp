@@ -1,6 +1,7 @@
 // `crevice render`: scenes through a pipeline into pictures.
 #include <algorithm>
 #include <memory>
+#include <optional>
 
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
@@ -8,6 +9,7 @@
 #include "app/Renderer.h"
 #include "app/commands/Commands.h"
 #include "app/commands/DumpTarget.h"
+#include "app/commands/Interrupt.h"
 #include "app/commands/OutputFiles.h"
 #include "app/commands/RenderOptions.h"
 #include "app/commands/Timings.h"
@@ -31,6 +33,7 @@ public:
     int run() {
         start();
         for (std::size_t i = 0; i < job_.items.size(); ++i) renderScene(i);
+        if (interrupt_) interrupt_->check();
         if (reportValidation()) return 1;
         if (!options_.timings.empty()) files_.add(options_.timings, timingsJson(timings_));
         progress_.clear();
@@ -49,6 +52,7 @@ private:
     const PipelineChoice& pipeline_;
     RenderJob job_;
     Progress progress_;
+    std::optional<Interrupt> interrupt_;  ///< Only for several pictures: a single one leaves nothing behind.
     Timings timings_;
     Stopwatch watch_;
     OutputFiles files_;
@@ -56,6 +60,7 @@ private:
 };
 
 void RenderRun::start() {
+    if (job_.items.size() > 1 || job_.eachFrame) interrupt_.emplace();
     timings_.pixels = std::uint64_t(job_.view.size.x) * job_.view.size.y;
     watch_.lap();
     renderer_ = std::make_unique<Renderer>(RendererOptions{.device = options_.device,
@@ -95,6 +100,7 @@ void RenderRun::renderFrames(const RenderItem& item, const View& view) {
     SceneTimings& times = timings_.scenes.back();
     for (std::uint32_t frame = 0; frame < job_.frames; ++frame) {
         progress_.show(fmt::format("{}: frame {}/{} …", item.scene.name, frame + 1, job_.frames));
+        if (interrupt_) interrupt_->check();
         View current = view;
         current.frameIndex = frame;
         const bool last = frame + 1 == job_.frames;
