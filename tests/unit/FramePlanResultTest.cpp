@@ -105,6 +105,16 @@ TEST_F(PlanRules, ATargetNobodyReadsIsWarnedOf) {
                                         "warning: no stage reads or writes the target 'unused'"}));
 }
 
+TEST_F(PlanRules, ATargetThatTheParentBringsAndNobodyUsesIsNoWarning) {
+    target("out");
+    target("unused");
+    stage("A").writes = {write("out")};
+    desc_.path = "d.json";
+    EXPECT_EQ(remarks().size(), 1u);
+    desc_.path = "child.json";
+    EXPECT_TRUE(remarks().empty());
+}
+
 TEST_F(PlanRules, WhatAClassStageOffersIsOnlyNoted) {
     target("out");
     target("extra");
