@@ -135,6 +135,12 @@ inline float floorDistance(std::uint32_t row, std::uint32_t rows, float height) 
     return down * 1.41421356f;
 }
 
+inline View viewOf(const Camera& camera, std::uint32_t width, std::uint32_t height) {
+    View view{.width = width, .height = height};
+    view.camera = camera;
+    return view;
+}
+
 class AoTest : public testing::Test {
 protected:
     using Options = std::map<std::string, std::string>;
@@ -174,10 +180,10 @@ protected:
         renderer_->load({.nameOrPath = pipeline, .options = options, .sets = std::move(sets)}, run);
     }
     /// A document of the test itself.
-    void loadDocument(const std::string& text, Sets sets = {}) {
+    void loadDocument(const std::string& text, Sets sets = {}, Options options = {}) {
         const std::filesystem::path path = folder_ / "test.pipeline.json";
         writeFileAtomically(path, text);
-        renderer_->load({.nameOrPath = path.string(), .options = {}, .sets = std::move(sets)},
+        renderer_->load({.nameOrPath = path.string(), .options = std::move(options), .sets = std::move(sets)},
                         {.width = 1, .height = 1});
     }
     /// An effect of the test itself, found by name.
@@ -196,11 +202,6 @@ protected:
                         " result;\n  void main() {\n" + body + "\n  }\n}%\n");
     }
 
-    static View viewOf(const Camera& camera, std::uint32_t width, std::uint32_t height) {
-        View view{.width = width, .height = height};
-        view.camera = camera;
-        return view;
-    }
     Image target(const View& view, const std::string& name) {
         View keeping = view;
         keeping.keep = {name};
