@@ -16,8 +16,8 @@ namespace {
 
 constexpr float kDefaultNear = 0.1f;
 constexpr float kDefaultFarPerNear = 1e4f;
-constexpr float kMaxFarPerNear = 20000.0f;
-constexpr float kDepthMargin = 0.01f;  // of the depth range on either side
+constexpr float kMaxFarPerNear = 4000.0f;  // 32-bit depth then resolves 1/4000 of the largest distance
+constexpr float kDepthMargin = 0.01f;      // of the depth range on either side
 constexpr float kFrameMargin = 1.05f;
 
 std::array<glm::vec3, 8> corners(const Aabb& box) {

@@ -32,7 +32,8 @@ struct Camera {
 Camera frameBounds(const Aabb& bounds, float fovY, float aspect);
 
 /// Fills near and far where they are 0, so that the bounds are inside with a margin and far / near stays sensible: near
-/// is never below far / 20000, which a 32-bit depth buffer resolves to a few millionths of the distance.
+/// is never below far / 4000: a 32-bit depth buffer then tells surfaces at the far end apart that are 1/4000 of their
+/// distance behind each other (2^-24 z² / near, and better closer by).
 void fitNearFar(Camera& camera, const Aabb& bounds);
 
 }  // namespace crevice

@@ -125,7 +125,7 @@ TEST(Camera, FitsDepthInsideTheBounds) {
     fitNearFar(camera, boxOf(glm::vec3(-10), glm::vec3(10)));
     EXPECT_GE(camera.far, 10);
     EXPECT_LE(camera.far, 11);
-    EXPECT_NEAR(camera.near, camera.far / 20000, 1e-7);
+    EXPECT_NEAR(camera.near, camera.far / 4000, 1e-7);
 }
 
 TEST(Camera, FitsDepthTightlyFromOutside) {
