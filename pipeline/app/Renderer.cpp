@@ -48,14 +48,15 @@ Renderer::Renderer(RendererOptions options)
 
 Renderer::~Renderer() = default;
 
-void Renderer::loadPlugin(const std::filesystem::path& path) { plugins_.emplace_back(path, registry_); }
-
 void Renderer::load(PipelineRequest request, const RunInfo& run) {
     if (!request.defaultPriority) {
         request.defaultPriority = [this](const std::string& stageClass) { return registry_.priorityOf(stageClass); };
     }
-    PipelineDesc desc = loadPipeline(options_.roots, request);
+    const AssetRoots roots = options_.roots.forDocument(request.nameOrPath);
+    plugins_.loadNeeded(roots, request.nameOrPath, registry_);
+    PipelineDesc desc = loadPipeline(roots, request);
     pipeline_.reset();
+    effects_.setRoots(roots);
     pipeline_ = std::make_unique<RenderPipeline>(device_, effects_, registry_, options_.log, std::move(desc), run);
     if (hasScene_) prepare();
 }

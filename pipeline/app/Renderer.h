@@ -17,7 +17,7 @@
 #include "core/Files.h"
 #include "core/Image.h"
 #include "core/Log.h"
-#include "flow/Plugin.h"
+#include "flow/PluginSet.h"
 #include "flow/RenderPipeline.h"
 #include "flow/StageRegistry.h"
 #include "gfx/Device.h"
@@ -51,9 +51,12 @@ public:
 
     /// Classes for documents to name; add yours before load().
     StageRegistry& stages() { return registry_; }
-    void loadPlugin(const std::filesystem::path& path);
+    void loadPlugin(const std::filesystem::path& path) { plugins_.load(path, registry_); }
+    /// Documents may name plugins of this folder. Without it and loadPlugin(), opening a document never runs code.
+    void allowPlugins(const std::filesystem::path& folder) { plugins_.allowFolder(folder); }
 
-    /// Reads a pipeline document; `run` is what the caller expects to draw. Throws Error.
+    /// Reads a pipeline document; `run` is what the caller expects to draw. Throws Error. Effects that lie beside a
+    /// document that is given by path go before ours.
     void load(PipelineRequest request, const RunInfo& run = {});
     /// Takes the scene over and uploads it. Throws Error.
     void setScene(Scene scene);
@@ -81,7 +84,7 @@ private:
     void prepare();
 
     RendererOptions options_;
-    std::vector<Plugin> plugins_;  // before the registry: code outlives the objects made from it
+    PluginSet plugins_;  // before the registry: code outlives the objects made from it
     StageRegistry registry_;
     Device device_;
     EffectLibrary effects_;

@@ -75,13 +75,17 @@ std::optional<fs::path> installedShare() {
     return std::nullopt;
 }
 
+enum class Depth { Tree, OneFolder };
+
 /// The names of a kind below one root. Folders that cannot be read hold nothing.
-void collectNames(const fs::path& root, const KindPlace& place, std::set<std::string>& names) {
+void collectNames(const fs::path& root, const KindPlace& place, std::set<std::string>& names,
+                  Depth depth = Depth::Tree) {
     const std::string ending = place.ending;
     const fs::path folder = root / place.folder;
     std::error_code failed;
     fs::recursive_directory_iterator entry(folder, fs::directory_options::skip_permission_denied, failed);
     for (; !failed && entry != fs::recursive_directory_iterator(); entry.increment(failed)) {
+        if (depth == Depth::OneFolder) entry.disable_recursion_pending();
         std::error_code ignored;
         if (!entry->is_regular_file(ignored)) continue;
         std::string name = entry->path().lexically_relative(folder).generic_string();
@@ -108,8 +112,32 @@ AssetRoots AssetRoots::standard() {
     return AssetRoots({fs::path(CREVICE_SOURCE_DIR)});
 }
 
+AssetRoots AssetRoots::forDocument(const std::string& nameOrPath) const {
+    AssetRoots roots = *this;
+    if (!nameOrPath.ends_with(".json")) return roots;
+    const fs::path folder = (fs::path(nameOrPath).parent_path() / ".").lexically_normal();
+    if (documentFolder_ == folder) return roots;
+    std::error_code failed;
+    const fs::path whole = fs::absolute(folder / ".", failed).lexically_normal().parent_path();
+    if (!failed && whole.filename() == "pipelines" && whole.parent_path().filename() == "assets") {
+        roots.prepend((folder / "../..").lexically_normal());
+    }
+    roots.prepend(folder);
+    roots.documentFolder_ = folder;
+    return roots;
+}
+
+std::optional<fs::path> AssetRoots::besideDocument(AssetKind kind, std::string_view name) const {
+    if (!documentFolder_ || (kind != AssetKind::Effect && kind != AssetKind::Chunk)) return std::nullopt;
+    fs::path path = (*documentFolder_ / (std::string(name) + placeOf(kind).ending)).lexically_normal();
+    std::error_code ignored;
+    if (!fs::is_regular_file(path, ignored) || !contains(path)) return std::nullopt;
+    return path;
+}
+
 std::optional<fs::path> AssetRoots::find(AssetKind kind, std::string_view name) const {
     if (!isSafeName(name)) return std::nullopt;
+    if (auto beside = besideDocument(kind, name)) return beside;
     const KindPlace place = placeOf(kind);
     for (const fs::path& root : roots_) {
         fs::path path = root / place.folder / (std::string(name) + place.ending);
@@ -122,6 +150,9 @@ std::optional<fs::path> AssetRoots::find(AssetKind kind, std::string_view name) 
 std::vector<std::string> AssetRoots::list(AssetKind kind) const {
     std::set<std::string> names;
     for (const fs::path& root : roots_) collectNames(root, placeOf(kind), names);
+    if (documentFolder_ && (kind == AssetKind::Effect || kind == AssetKind::Chunk)) {
+        collectNames(*documentFolder_, {"", placeOf(kind).ending}, names, Depth::OneFolder);
+    }
     return {names.begin(), names.end()};
 }
 

@@ -30,18 +30,25 @@ public:
     explicit AssetRoots(std::vector<std::filesystem::path> roots);
     /// CREVICE_DATA_DIR if set, else the installed share folder beside the library, else the source tree.
     static AssetRoots standard();
+    /// A copy for a document that is given by a path (ends in ".json"): its own folder tree is searched before all
+    /// others. Its effects and chunks may lie beside it or in effects/; a document that stands in a tree like ours,
+    /// ROOT/assets/pipelines/, brings ROOT along. For a name: the same roots.
+    AssetRoots forDocument(const std::string& nameOrPath) const;
 
     std::optional<std::filesystem::path> find(AssetKind kind, std::string_view name) const;
     /// Names of all assets of a kind, sorted, without duplicates: for "did you mean" and `effects list`.
     std::vector<std::string> list(AssetKind kind) const;
-    /// Adds a root that is searched before the others (a document's own folder tree).
+    /// Adds a root that is searched before the others.
     void prepend(std::filesystem::path root);
     const std::vector<std::filesystem::path>& roots() const { return roots_; }
     /// True when `path`, links resolved, lies inside one of the roots.
     bool contains(const std::filesystem::path& path) const;
 
 private:
+    std::optional<std::filesystem::path> besideDocument(AssetKind kind, std::string_view name) const;
+
     std::vector<std::filesystem::path> roots_;
+    std::optional<std::filesystem::path> documentFolder_;  ///< One of the roots; files may lie in it directly.
 };
 
 /// Whole file. Throws Error naming the path and the system's reason, or the limit when it is larger.

@@ -52,11 +52,12 @@ struct EffectLibrary::State {
     Log log;
     SpirvCache disk;
     ShaderCompiler compiler;
-    std::map<std::string, std::unique_ptr<EffectAsset>> assets;
+    std::map<std::string, std::unique_ptr<EffectAsset>> assets;  ///< By path.
+    std::map<std::string, const EffectAsset*> named;             ///< As the present roots find them.
     std::vector<std::unique_ptr<EffectVariant>> variants;
     std::map<std::string, const EffectVariant*> byRequest, byContent;
     Chunks chunks;
-    std::uint64_t generation = 0;  ///< Counts changes of generated chunks.
+    std::uint64_t generation = 0;  ///< Counts changes of generated chunks and of roots.
     Counters counters;
 
     const EffectAsset& asset(const std::string& effect, const SourceLoc& where);
@@ -94,15 +95,16 @@ fs::path EffectLibrary::State::findFile(const std::string& effect, const SourceL
 }
 
 const EffectAsset& EffectLibrary::State::asset(const std::string& effect, const SourceLoc& where) {
-    if (const auto it = assets.find(effect); it != assets.end()) return *it->second;
+    if (const auto it = named.find(effect); it != named.end()) return *it->second;
     const fs::path path = findFile(effect, where);
+    if (const auto it = assets.find(path.string()); it != assets.end()) return *(named[effect] = it->second.get());
     Problems problems;
     const std::string name = effect.ends_with(".effect") ? path.stem().string() : effect;
     auto parsed =
         std::make_unique<EffectAsset>(parseEffect(readText(path, kMaxEffectBytes), name, path.string(), problems));
     problems.throwIfErrors();
     log.write(problems);
-    return *assets.emplace(effect, std::move(parsed)).first->second;
+    return *(named[effect] = assets.emplace(path.string(), std::move(parsed)).first->second.get());
 }
 
 const EffectPass& EffectLibrary::State::passOf(const EffectAsset& asset, const VariantRequest& request) const {
@@ -164,7 +166,7 @@ const EffectVariant& EffectLibrary::State::make(const VariantRequest& request, c
     const EffectPass& pass = passOf(effect, request);
     const std::vector<StageSource> sources = stagesOf(effect, pass, request);
     const std::string key = contentKey(sources, bindings);
-    const std::string place = fmt::format("{} {} {} {}", request.effect, request.technique, request.pass, key);
+    const std::string place = fmt::format("{} {} {} {}", effect.path, request.technique, request.pass, key);
     if (const auto it = byContent.find(place); it != byContent.end()) {
         ++counters.fromMemory;
         return *it->second;
@@ -191,6 +193,7 @@ EffectLibrary::EffectLibrary(AssetRoots roots, const Log& log, Options options)
     : state_(new State{std::move(roots),
                        log,
                        SpirvCache(options.useDiskCache ? cacheFolder("spirv") : std::nullopt),
+                       {},
                        {},
                        {},
                        {},
@@ -246,6 +249,12 @@ std::string EffectLibrary::text(const VariantRequest& request, ShaderStageBits s
 }
 
 const AssetRoots& EffectLibrary::roots() const { return state_->roots; }
+void EffectLibrary::setRoots(AssetRoots roots) {
+    state_->roots = std::move(roots);
+    state_->named.clear();
+    ++state_->generation;
+}
+
 const EffectLibrary::Counters& EffectLibrary::counters() const { return state_->counters; }
 
 }  // namespace crevice

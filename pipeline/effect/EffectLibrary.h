@@ -60,6 +60,8 @@ public:
     /// The text handed to glslang for a stage, for `effects compile --text`; empty when the pass lacks the stage.
     std::string text(const VariantRequest& request, ShaderStageBits stage);
     const AssetRoots& roots() const;
+    /// Names are looked up here from now on (another document, another folder). Variants made before stay valid.
+    void setRoots(AssetRoots roots);
 
     struct Counters {
         std::size_t compiled = 0, fromDisk = 0, fromMemory = 0;

@@ -31,6 +31,21 @@ void checkInfo(const PluginInfo& info, const std::string& file) {
     }
 }
 
+/// All classes of a plugin or none: a half-registered one would leave factories whose code is gone.
+void registerAside(void (*registerStages)(StageRegistry&), const std::string& file, StageRegistry& registry) {
+    StageRegistry aside = registry;
+    aside.setOrigin(file);
+    try {
+        registerStages(aside);
+    } catch (const Error&) {
+        throw;
+    } catch (const std::exception& error) {  // Its type may live in the plugin.
+        throw Error(fmt::format("plugin '{}' failed to register its stages: {}", file, error.what()));
+    }
+    aside.setOrigin("builtin");
+    registry = std::move(aside);
+}
+
 }  // namespace
 
 Plugin::Plugin(const std::filesystem::path& path, StageRegistry& registry) : path_(path) {
@@ -42,7 +57,7 @@ Plugin::Plugin(const std::filesystem::path& path, StageRegistry& registry) : pat
     handle_ = dlopen(std::filesystem::absolute(path).c_str(), RTLD_NOW | RTLD_LOCAL);
     if (!handle_)
         throw Error(fmt::format("plugin '{}' cannot be loaded: {}", file, dlerror()),
-                    "check its dependencies with ldd");
+                    "it has to be a shared library made by crevice_add_plugin(); ldd shows what it lacks");
 
     const auto* info = static_cast<const PluginInfo*>(dlsym(handle_, "crevice_plugin_info"));
     const auto registerStages = reinterpret_cast<void (*)(StageRegistry&)>(dlsym(handle_, "crevice_register_stages"));
@@ -53,11 +68,8 @@ Plugin::Plugin(const std::filesystem::path& path, StageRegistry& registry) : pat
                         "register the stages with CREVICE_PLUGIN(registry) { … }");
         }
         checkInfo(*info, file);
-        registry.setOrigin(file);
-        registerStages(registry);
-        registry.setOrigin("builtin");
+        registerAside(registerStages, file, registry);
     } catch (...) {
-        registry.setOrigin("builtin");
         dlclose(handle_);
         throw;
     }

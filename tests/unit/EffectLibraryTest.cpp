@@ -98,6 +98,26 @@ TEST(EffectLibrary, EffectsByPath) {
     EXPECT_THROW(bench.library.asset((outside.path() / "./o.effect").string(), document), Error);
 }
 
+TEST(EffectLibrary, OtherRootsGiveOtherEffectsOfTheSameName) {
+    EffectBench bench;
+    bench.fullscreen(kFragment);
+    const EffectVariant& first = bench.get();
+    EffectFolder other;
+    std::filesystem::create_directories(other.path() / "effects");
+    // The same programs: only the header differs.
+    std::string text = readText(bench.file());
+    text.replace(text.find("frag:"), 0, "blendState: { targets: [ { blend: true } ] }\n      ");
+    other.write("effects/e.effect", text);
+    AssetRoots roots = bench.library.roots();
+    roots.prepend(other.path());
+    bench.library.setRoots(roots);
+    const EffectVariant& second = bench.get();
+    EXPECT_NE(first.id, second.id);
+    EXPECT_TRUE(first.pass->state.blendTargets.empty() || !first.pass->state.blendTargets[0].blend);
+    ASSERT_FALSE(second.pass->state.blendTargets.empty());
+    EXPECT_TRUE(second.pass->state.blendTargets[0].blend);
+}
+
 TEST(EffectLibrary, PropertyThatFeedsNothing) {
     EffectBench bench;
     bench.fullscreen(kFragment, "      properties: { brightnes: { value: 1 }, map: { value: white } }\n");

@@ -78,6 +78,54 @@ TEST_F(Files, EveryKindHasItsFolderAndEnding) {
     }
 }
 
+TEST_F(Files, EffectsBesideADocumentGoBeforeAllOthers) {
+    const AssetRoots ours({root_ / "ours"});
+    make("ours/effects/e.effect");
+    make("ours/effects/chunks/c.chunk");
+    const std::string document = make("mine/my.pipeline.json").string();
+    const AssetRoots roots = ours.forDocument(document);
+    EXPECT_EQ(roots.find(AssetKind::Effect, "e"), root_ / "ours/effects/e.effect");
+    make("mine/effects/e.effect");
+    EXPECT_EQ(roots.find(AssetKind::Effect, "e"), root_ / "mine/effects/e.effect");
+    make("mine/e.effect");
+    make("mine/c.chunk");
+    EXPECT_EQ(roots.find(AssetKind::Effect, "e"), root_ / "mine/e.effect");
+    EXPECT_EQ(roots.find(AssetKind::Chunk, "c"), root_ / "mine/c.chunk");
+    make("mine/deeper/below.effect");
+    EXPECT_EQ(roots.find(AssetKind::Effect, "deeper/below"), root_ / "mine/deeper/below.effect");
+    EXPECT_EQ(roots.list(AssetKind::Effect), std::vector<std::string>{"e"});
+    EXPECT_EQ(ours.find(AssetKind::Effect, "e"), root_ / "ours/effects/e.effect") << "the original is unchanged";
+    EXPECT_EQ(roots.forDocument(document).roots(), roots.roots()) << "twice is once";
+    EXPECT_EQ(ours.forDocument("my").roots(), ours.roots()) << "a name has no folder";
+}
+
+TEST_F(Files, OnlyEffectsAndChunksMayLieBesideADocument) {
+    const AssetRoots roots = AssetRoots({root_ / "ours"}).forDocument(make("mine/my.pipeline.json").string());
+    make("mine/s.scene.json");
+    make("mine/m.mtl.json");
+    EXPECT_FALSE(roots.find(AssetKind::Scene, "s"));
+    EXPECT_FALSE(roots.find(AssetKind::Material, "m"));
+    EXPECT_FALSE(roots.find(AssetKind::Pipeline, "my"));
+}
+
+TEST_F(Files, ADocumentsEffectsStayInItsFolder) {
+    const AssetRoots roots = AssetRoots({root_ / "ours"}).forDocument(make("mine/my.pipeline.json").string());
+    const fs::path secret = make("secret.effect");
+    fs::create_symlink(secret, root_ / "mine/link.effect");
+    EXPECT_FALSE(roots.find(AssetKind::Effect, "link"));
+    EXPECT_FALSE(roots.find(AssetKind::Effect, "../secret"));
+    EXPECT_FALSE(roots.find(AssetKind::Effect, (root_ / "secret").string()));
+}
+
+TEST_F(Files, ADocumentInATreeLikeOursBringsTheTree) {
+    make("tree/effects/e.effect");
+    const std::string document = make("tree/assets/pipelines/my.pipeline.json").string();
+    const AssetRoots roots = AssetRoots({root_ / "ours"}).forDocument(document);
+    const auto found = roots.find(AssetKind::Effect, "e");
+    ASSERT_TRUE(found);
+    EXPECT_TRUE(fs::equivalent(*found, root_ / "tree/effects/e.effect"));
+}
+
 TEST_F(Files, NamesCannotLeaveTheRoot) {
     make("effects/ok.effect");
     make("secret.effect");

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <system_error>
 
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
@@ -13,19 +12,10 @@
 #include "core/Params.h"
 #include "core/Text.h"
 #include "flow/RenderStage.h"
-#include "plan/PipelineAssetFiles.h"
 #include "stages/Builtin.h"
 
 namespace crevice {
 namespace {
-
-namespace fs = std::filesystem;
-
-/// "outline" for "outline.so" and "liboutline.so".
-std::string pluginName(const fs::path& file) {
-    const std::string stem = file.stem().string();
-    return stem.starts_with("lib") ? stem.substr(3) : stem;
-}
 
 bool hasSeed(const StageRegistry& registry, const StageDesc& stage) {
     const StageClass* stageClass = registry.find(stage.stageClass);
@@ -57,51 +47,13 @@ void addPipelineOptions(CLI::App& command, PipelineOptions& options) {
     addPluginOptions(command, options.plugins);
 }
 
-StageClasses::StageClasses(const PluginOptions& options) : folders_(options.pluginPaths) {
+StageClasses::StageClasses(const PluginOptions& options) {
     registerBuiltinStages(registry_);
-    for (const std::string& folder : folders_) {
-        std::error_code failed;
-        if (!fs::is_directory(folder, failed)) {
-            throw Error(fmt::format("--plugin-path: folder '{}' does not exist", folder), "name an existing folder");
-        }
-    }
-    for (const std::string& file : options.plugins) load(file);
+    for (const std::string& folder : options.pluginPaths) plugins_.allowFolder(folder);
+    for (const std::string& file : options.plugins) plugins_.load(file, registry_);
 }
 
-void StageClasses::load(const fs::path& file) {
-    plugins_.emplace_back(file, registry_);
-    files_.push_back(file);
-}
-
-void StageClasses::loadNeeded(const std::string& plugin, const SourceLoc& where) {
-    const auto isLoaded = [&](const fs::path& file) { return pluginName(file) == plugin; };
-    if (std::any_of(files_.begin(), files_.end(), isLoaded)) return;
-    if (plugin.find('/') != std::string::npos) {
-        throw Error(where, fmt::format("plugin '{}' is a path", plugin),
-                    "write its name only; --plugin-path DIR says where it lies");
-    }
-    for (const fs::path folder : folders_) {
-        for (const std::string& name : {plugin, plugin + ".so", "lib" + plugin + ".so"}) {
-            std::error_code failed;
-            if (fs::is_regular_file(folder / name, failed)) return load(folder / name);
-        }
-    }
-    throw Error(where, fmt::format("the pipeline needs plugin '{}', and it was not found", plugin),
-                folders_.empty() ? "say where it lies: --plugin-path DIR, or load it: --plugin FILE.so"
-                                 : fmt::format("looked for lib{}.so in: {}", plugin, join(folders_)));
-}
-
-AssetRoots rootsFor(const std::string& nameOrPath) {
-    AssetRoots roots = AssetRoots::standard();
-    if (!nameOrPath.ends_with(".json")) return roots;
-    const fs::path folder = fs::absolute(nameOrPath).lexically_normal().parent_path();
-    roots.prepend(folder);
-    // A document at its place in a tree of its own: ROOT/assets/pipelines/NAME.pipeline.json with ROOT/effects.
-    if (folder.filename() == "pipelines" && folder.parent_path().filename() == "assets") {
-        roots.prepend(folder.parent_path().parent_path());
-    }
-    return roots;
-}
+AssetRoots rootsFor(const std::string& nameOrPath) { return AssetRoots::standard().forDocument(nameOrPath); }
 
 PipelineChoice::PipelineChoice(const std::string& nameOrPath, const PipelineOptions& options)
     : roots_(rootsFor(nameOrPath)), classes_(options.plugins) {
@@ -117,20 +69,9 @@ PipelineChoice::PipelineChoice(const std::string& nameOrPath, const PipelineOpti
         request_.sets.push_back({path, value});
     }
     request_.defaultPriority = [this](const std::string& name) { return classes_.registry().priorityOf(name); };
-    loadPlugins();
+    classes_.loadNeeded(roots_, nameOrPath);
     desc_ = loadPipeline(roots_, request_);
     if (!options.seed.empty()) setSeed(options.seed);
-}
-
-void PipelineChoice::loadPlugins() {
-    Problems problems;  // reported by loadPipeline()
-    for (const PipelineSource& source : readPipelineChain(roots_, request_.nameOrPath, problems)) {
-        const Value* plugins = source.tree.isObject() ? source.tree.find("plugins") : nullptr;
-        if (!plugins || !plugins->isArray()) continue;
-        for (const Value& plugin : plugins->items()) {
-            if (plugin.isString()) classes_.loadNeeded(plugin.string(), plugin.where());
-        }
-    }
 }
 
 void PipelineChoice::setSeed(const std::string& seed) {

@@ -8,7 +8,7 @@
 #include "core/Files.h"
 #include "core/Log.h"
 #include "flow/FrameProgram.h"
-#include "flow/Plugin.h"
+#include "flow/PluginSet.h"
 #include "flow/StageRegistry.h"
 #include "plan/PipelineAsset.h"
 
@@ -39,18 +39,16 @@ class StageClasses {
 public:
     /// Builtin classes and the --plugin files. Throws Error.
     explicit StageClasses(const PluginOptions& options);
-    /// Loads what a document's "plugins" names from --plugin-path. Throws Error.
-    void loadNeeded(const std::string& plugin, const SourceLoc& where);
+    /// Loads what the documents name in "plugins" from --plugin-path. Throws Error.
+    void loadNeeded(const AssetRoots& roots, const std::string& pipeline) {
+        plugins_.loadNeeded(roots, pipeline, registry_);
+    }
 
     const StageRegistry& registry() const { return registry_; }
-    const std::vector<std::filesystem::path>& pluginFiles() const { return files_; }
+    const std::vector<std::filesystem::path>& pluginFiles() const { return plugins_.files(); }
 
 private:
-    void load(const std::filesystem::path& file);
-
-    std::vector<std::string> folders_;
-    std::vector<std::filesystem::path> files_;
-    std::vector<Plugin> plugins_;  // before the registry: code outlives the factories made from it
+    PluginSet plugins_;  // before the registry: code outlives the factories made from it
     StageRegistry registry_;
 };
 
@@ -68,7 +66,6 @@ public:
     const StageClasses& classes() const { return classes_; }
 
 private:
-    void loadPlugins();
     void setSeed(const std::string& seed);
 
     AssetRoots roots_;
