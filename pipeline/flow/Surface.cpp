@@ -52,6 +52,7 @@ SurfaceInputs surfaceInputs(const SceneMaterial& material, bool meshHasTangents)
         inputs.textures.emplace_back(row.sampler, ref);
     }
     inputs.defines["USE_ALPHA_TEST"] = material.alphaMode == AlphaMode::Mask ? "1" : "0";
+    inputs.defines["USE_ALPHA_BLEND"] = material.alphaMode == AlphaMode::Blend ? "1" : "0";
     inputs.defines["USE_DOUBLE_SIDED"] = material.doubleSided ? "1" : "0";
     inputs.defines["HAS_TANGENTS"] = meshHasTangents ? "1" : "0";
     inputs.properties = propertiesOf(material);
