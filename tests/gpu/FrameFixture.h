@@ -183,6 +183,10 @@ protected:
     }
     static glm::vec4 at(const Image& image, const View& view, const glm::vec3& world) {
         const glm::vec2 pixel = pixelOf(view, world);
+        if (pixel.x < 0 || pixel.y < 0 || pixel.x >= float(image.width) || pixel.y >= float(image.height)) {
+            ADD_FAILURE() << "not in the picture: " << world.x << ' ' << world.y << ' ' << world.z;
+            return glm::vec4(NAN);
+        }
         return image.at(static_cast<std::uint32_t>(pixel.x), static_cast<std::uint32_t>(pixel.y));
     }
 
