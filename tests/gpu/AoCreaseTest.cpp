@@ -57,6 +57,8 @@ TEST_F(AoCrease, CornerIsDarkerThanWall) {
     double cornerMean = 0, wallMean = 0;
     for (std::uint32_t y = 28; y < 36; ++y)
         for (std::uint32_t x = 28; x < 36; ++x) cornerMean += corner.at(x, y), wallMean += walls.at(x, y);
+    RecordProperty("corner", std::to_string(cornerMean / 64));
+    RecordProperty("wall", std::to_string(wallMean / 64));
     EXPECT_LT(cornerMean, wallMean - 64 * 0.1);
     EXPECT_LT(wallMean, 64 * 0.95);
 }
