@@ -131,6 +131,10 @@ void RenderPipeline::render(const FrameView& view, std::span<const std::string> 
     for (const auto& execution : executions_) {
         recordStage(*execution, view);
         commands_.writeTimestamp(*timestamps_, slot++);
+        if (!stageDone_) continue;
+        commands_.submitAndWait();
+        stageDone_(program_.plan().uses[execution->planned().use].stage);
+        commands_.begin();
     }
     recordTransitions(program_.plan().atEnd);
     commands_.recordBarriersTo(nullptr);
@@ -140,6 +144,7 @@ void RenderPipeline::render(const FrameView& view, std::span<const std::string> 
     commands_.writeTimestamp(*timestamps_, slot++);
     commands_.memoryBarrier();
     commands_.submitAndWait();
+    if (stageDone_) stageDone_("readback");
 }
 
 void RenderPipeline::uploadFrameBlocks(const FrameView& view) {

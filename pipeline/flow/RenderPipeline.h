@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
@@ -35,6 +36,10 @@ public:
     /// Renders one frame and waits. Targets are made anew only when the extent differs from the last frame's.
     /// `keep`: targets whose contents image() can return afterwards, besides the output.
     void render(const FrameView& view, std::span<const std::string> keep = {});
+
+    /// Called with a stage's name ("readback" at the end) when the device has finished it: for profilers that measure
+    /// the processor. Every stage becomes a submission of its own.
+    void observeStages(std::function<void(std::string_view stage)> observer) { stageDone_ = std::move(observer); }
 
     /// A target as the last frame left it: the output, or one that was kept.
     Image image(std::string_view target) const;
@@ -78,6 +83,7 @@ private:
     std::vector<std::unique_ptr<StageExecution>> executions_;
     std::vector<std::unique_ptr<Kept>> kept_;
     std::vector<RecordedBarrier> barriers_;
+    std::function<void(std::string_view)> stageDone_;
 };
 
 }  // namespace crevice
