@@ -197,15 +197,15 @@ TEST_F(GfxDrawTest, InstancesTakeTheirAttributesAndDepthDecides) {
                              std::as_bytes(std::span(instances)));
     const Buffer indexBuffer(*device_, {.size = sizeof indices, .usage = BufferUsage::Index},
                              std::as_bytes(std::span(indices)));
-    GraphicsPipelineDesc desc{.vertex = code[0],
-                              .fragment = code[1],
-                              .state = {},
-                              .vertexBindings = {{0, sizeof(glm::vec2), false}, {1, sizeof(glm::vec4), true}},
-                              .vertexAttributes = {{0, 0, VertexFormat::Float2, 0}, {1, 1, VertexFormat::Float4, 0}},
-                              .colorFormats = {Format::RGBA8},
-                              .depthFormat = Format::D32F,
-                              .layout = &layouts_->get({}),
-                              .name = "instances"};
+    GraphicsPipelineDesc desc;  // member by member: gcc 12 takes `state` of an initialiser list for uninitialized
+    desc.vertex = code[0];
+    desc.fragment = code[1];
+    desc.vertexBindings = {{0, sizeof(glm::vec2), false}, {1, sizeof(glm::vec4), true}};
+    desc.vertexAttributes = {{0, 0, VertexFormat::Float2, 0}, {1, 1, VertexFormat::Float4, 0}};
+    desc.colorFormats = {Format::RGBA8};
+    desc.depthFormat = Format::D32F;
+    desc.layout = &layouts_->get({});
+    desc.name = "instances";
     const GpuTexture target = makeTarget(Format::RGBA8, "target");
     const GpuTexture depth(*device_, {.format = Format::D32F,
                                       .width = 8,
