@@ -1,0 +1,22 @@
+#!/usr/bin/env bash
+# Renders the pictures of the documents anew: tests/docs/make-pictures.sh [PROGRAM], from anywhere.
+set -euo pipefail
+cd "$(dirname "$0")/../.."
+crevice=${1:-build/crevice}
+scenes=tests/image/scenes
+out=docs/images
+
+render() { "$crevice" render -q "$@" >/dev/null; }
+render default -o $out/default.png --size 800x450
+render default -o $out/with-ao.png --size 480x270 --dump cc_ssaoBlurMap=$out/ao.png
+render default -o $out/without-ao.png --size 480x270 --option ssao=false
+render default -o $out/article.png --size 480x270 --option form=article
+render default -o $out/forward.png --size 480x270 -p forward
+render default -o $out/tone-aces.png --size 480x270 --set PostProcessStage.defines.TONEMAP=aces
+render default -o $out/ambient.png --size 480x270 --option shadows=false
+render default -o $out/gbuffer-normal.png --size 320x180 -p ao-only --option view=normal --dump cc_gbuffer_albedoMap=$out/gbuffer-albedo.png
+render default -o $out/view-depth.png --size 320x180 -p ao-only --option view=depth
+render $scenes/primitives.scene.json -o $out/primitives.png --size 480x270 --set cc_shadowMap.size=[512,512] --dump cc_shadowMap=$out/shadow-map.png
+render $scenes/spot.scene.json -o $out/spot.png --size 480x270
+render $scenes/fog.scene.json -o $out/fog.png --size 480x270
+render $scenes/glass.scene.json -o $out/glass.png --size 480x270
