@@ -75,6 +75,38 @@ TEST_F(AoPlane, IsOpenInOtherUnitsOfLength) {
     }
 }
 
+TEST_F(AoPlane, IsOpenHoweverItLies) {
+    // Planes, lenses and places in the world by a fixed sequence: normals that no half float holds, wide and shifted
+    // lenses.
+    loadMap("default", {{"SsaoStage.material.radius", "2"}});
+    std::uint32_t state = 1;
+    const auto random = [&](float from, float to) {
+        state = state * 1664525u + 1013904223u;
+        return from + (to - from) * static_cast<float>(state >> 8u) * 0x1p-24f;
+    };
+    for (int i = 0; i < 60; ++i) {
+        const float tilt = glm::radians(random(0, 80));
+        const float around = random(0, 2 * kPi);
+        const glm::vec3 normal(std::sin(tilt) * std::cos(around), std::sin(tilt) * std::sin(around), std::cos(tilt));
+        const glm::mat4 placed =
+            glm::rotate(translated({random(-50, 50), random(-50, 50), random(-50, 50)}), random(0, 6),
+                        glm::normalize(glm::vec3(random(0, 1), random(0.1f, 1), random(0, 1))));
+        Scene scene = emptyScene();
+        addSquare(scene, {0, 0, -kDistance}, normal, 60 * kDistance);
+        scene.instances[0].world = placed * scene.instances[0].world;
+        renderer_->setScene(std::move(scene));
+        Camera camera;
+        camera.view = glm::inverse(placed);
+        camera.fovY = glm::radians(random(5, 70));
+        camera.lensShift = {random(-0.6f, 0.6f), random(-0.6f, 0.6f)};
+        camera.near = 0.1f;
+        camera.far = 2000;
+        const FloatMap ao = map(viewOf(camera, kWidth, kHeight));
+        // Beyond the horizon is sky, which is open as well.
+        EXPECT_GE(ao.min(), 1 - kByteStep) << i << ": degrees " << glm::degrees(tilt);
+    }
+}
+
 TEST_F(AoPlane, OccludesItselfWithoutBias) {
     loadMap("default", {{"SsaoStage.material.radius", "0.2"}, {"SsaoStage.material.bias", "0"}});
     renderer_->setScene(tiltedPlane(60));
