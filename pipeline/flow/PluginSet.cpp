@@ -41,9 +41,9 @@ void PluginSet::allowFolder(const fs::path& folder) {
     folders_.push_back(folder);
 }
 
-void PluginSet::loadNeeded(const AssetRoots& roots, const std::string& nameOrPath, StageRegistry& registry) {
+void PluginSet::loadNeeded(const AssetRoots& roots, const PipelineRequest& request, StageRegistry& registry) {
     Problems problems;  // reported by loadPipeline()
-    for (const PipelineSource& source : readPipelineChain(roots, nameOrPath, problems)) {
+    for (const PipelineSource& source : readPipelineChain(roots, request.nameOrPath, request.options, problems)) {
         const Value* plugins = source.tree.isObject() ? source.tree.find("plugins") : nullptr;
         if (!plugins || !plugins->isArray()) continue;
         for (const Value& plugin : plugins->items()) {

@@ -65,24 +65,25 @@ Value flattenChain(const Chain& chain, const PipelineRequest& request, FlattenOp
 
 PipelineDesc loadPipeline(const AssetRoots& roots, const PipelineRequest& request) {
     Problems problems;
-    return loadChain(readPipelineChain(roots, request.nameOrPath, problems), request, problems);
+    return loadChain(readPipelineChain(roots, request.nameOrPath, request.options, problems), request, problems);
 }
 
 PipelineDesc parsePipeline(std::string_view text, const std::string& file, const AssetRoots& roots,
                            const PipelineRequest& request) {
     Problems problems;
-    return loadChain(parsePipelineChain(roots, text, file, problems), request, problems);
+    return loadChain(parsePipelineChain(roots, text, file, request.options, problems), request, problems);
 }
 
 Value flattenPipeline(const AssetRoots& roots, const PipelineRequest& request, FlattenOptions options) {
     Problems problems;
-    return flattenChain(readPipelineChain(roots, request.nameOrPath, problems), request, options, problems);
+    return flattenChain(readPipelineChain(roots, request.nameOrPath, request.options, problems), request, options,
+                        problems);
 }
 
 Value flattenParsed(std::string_view text, const std::string& file, const AssetRoots& roots,
                     const PipelineRequest& request, FlattenOptions options) {
     Problems problems;
-    return flattenChain(parsePipelineChain(roots, text, file, problems), request, options, problems);
+    return flattenChain(parsePipelineChain(roots, text, file, request.options, problems), request, options, problems);
 }
 
 }  // namespace crevice

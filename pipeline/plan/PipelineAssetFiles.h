@@ -1,6 +1,7 @@
 // Finds and reads the files of a pipeline document: the chain of `extends` and the flow files it names.
 #pragma once
 
+#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -17,12 +18,15 @@ struct PipelineSource {
     std::string file;  ///< As messages name it.
 };
 
+/// What the caller asks of options; here it only decides between flow files (`"flow": "ao/$ao"`).
+using OptionTexts = std::map<std::string, std::string>;
+
 /// The document of that name or path and its ancestors, oldest first. Throws Error when a file is missing or no JSON,
 /// or when `extends` is wrong; mistakes inside the documents go to `problems`.
 std::vector<PipelineSource> readPipelineChain(const AssetRoots& roots, const std::string& nameOrPath,
-                                              Problems& problems);
+                                              const OptionTexts& requested, Problems& problems);
 /// The same, the youngest document from memory.
 std::vector<PipelineSource> parsePipelineChain(const AssetRoots& roots, std::string_view text, const std::string& file,
-                                               Problems& problems);
+                                               const OptionTexts& requested, Problems& problems);
 
 }  // namespace crevice

@@ -124,10 +124,10 @@ const KeySpec kOptionKeys[] = {
      .names = optionTypeNames},
     {.key = "default",
      .kind = KeyKind::Any,
-     .help = "Value when the caller says nothing.",
+     .help = "Value when the caller says nothing. A number whose default is \"auto\" takes numbers and that word.",
      .required = true,
      .schema = R"({"type":["boolean","number","string"]})",
-     .type = "bool, number or choice"},
+     .type = "bool, number, auto or choice"},
     {.key = "min", .kind = KeyKind::Number, .help = "Smallest number allowed."},
     {.key = "max", .kind = KeyKind::Number, .help = "Largest number allowed."},
     {.key = "choices",
@@ -155,7 +155,8 @@ const KeySpec kChoiceKeys[] = {
 const KeySpec kFlowKeys[] = {
     {.key = "flow",
      .kind = KeyKind::Text,
-     .help = "Name. Without `stages`: the flow file `flows/NAME.flow.json`.",
+     .help = "Name. Without `stages`: the flow file `flows/NAME.flow.json`; `$option` in the name stands for the "
+             "option's value.",
      .required = true},
     {.key = "priority",
      .kind = KeyKind::Integer,

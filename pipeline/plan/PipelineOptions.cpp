@@ -53,16 +53,23 @@ void checkBoolChoices(const Value& choices, const OptionDesc& option, Problems& 
     }
 }
 
+/// As messages show a value: 'text', 3, true.
+std::string quoted(const Value& value) { return value.isString() ? "'" + value.string() + "'" : value.toJson(-1); }
+
+/// Numbers may have a default that somebody else works out; then the caller may ask for it, too.
+bool isAuto(const Value& value) { return value.isString() && value.string() == "auto"; }
+
 /// Whether a value fits an option; says what is wrong otherwise.
 bool fits(const Value& value, const OptionDesc& option, const SourceLoc& where, Problems& problems) {
     const std::string what = fmt::format("option '{}'", option.name);
     if (option.type == OptionType::Bool) {
         if (value.isBool()) return true;
-        problems.error(where, fmt::format("{} must be true or false, found {}", what, value.toJson(-1)), option.help);
+        problems.error(where, fmt::format("{} must be true or false, found {}", what, quoted(value)),
+                       "write true or false");
     } else if (option.type == OptionType::Number) {
         const bool inRange = value.isNumber() && value.number() >= option.min && value.number() <= option.max;
-        if (inRange) return true;
-        std::string help = "write a number";
+        if (inRange || (isAuto(value) && isAuto(option.defaultValue))) return true;
+        std::string help = isAuto(option.defaultValue) ? "write auto or a number" : "write a number";
         if (std::isfinite(option.min) && std::isfinite(option.max))
             help += fmt::format(" from {} to {}", option.min, option.max);
         else if (std::isfinite(option.min))
@@ -71,7 +78,7 @@ bool fits(const Value& value, const OptionDesc& option, const SourceLoc& where, 
             help += fmt::format(" up to {}", option.max);
         problems.error(where,
                        value.isNumber() ? fmt::format("{} is {}, out of range", what, value.number())
-                                        : fmt::format("{} must be a number, found {}", what, value.toJson(-1)),
+                                        : fmt::format("{} must be a number, found {}", what, quoted(value)),
                        help);
     } else {
         const auto& names = option.choices;
@@ -113,8 +120,8 @@ void readOption(const Member& member, std::vector<OptionDesc>& options, Problems
     option.max = reader.number("max").value_or(kInfinity);
     const Value* defaultValue = reader.get("default");
     const bool known = type && (option.type != OptionType::Choice || !option.choices.empty());
-    if (defaultValue && known) fits(*defaultValue, option, defaultValue->where(), problems);
     if (defaultValue) option.defaultValue = *defaultValue;
+    if (defaultValue && known) fits(*defaultValue, option, defaultValue->where(), problems);
     option.value = option.defaultValue;
     options.push_back(std::move(option));
 }

@@ -188,7 +188,7 @@ TEST(PipelineExtends, MissingParentsAndCircles) {
     EXPECT_NE(messageOf([&] { load(folder, "gone"); }).find("to extend"), std::string::npos);
     const std::string circle = messageOf([&] { load(folder, "a"); });
     EXPECT_NE(circle.find("in a circle: "), std::string::npos) << circle;
-    EXPECT_NE(circle.find("a.pipeline.json → "), std::string::npos) << circle;
+    EXPECT_NE(circle.find("a.pipeline.json' → '"), std::string::npos) << circle;
     const std::string unknown = messageOf([&] { load(folder, "bas"); });
     EXPECT_NE(unknown.find("no pipeline named 'bas'"), std::string::npos) << unknown;
     EXPECT_NE(messageOf([&] { load(folder, "bas.json"); }).find("no pipeline file 'bas.json'"), std::string::npos);
@@ -211,6 +211,68 @@ TEST(PipelineFlowFile, BringsStagesTargetsAndOptions) {
     EXPECT_EQ(on.blocks.at(0).binding, 20u);
     const PipelineDesc off = load(folder, "child", {.nameOrPath = "", .options = {{"ao", "none"}}, .sets = {}});
     EXPECT_EQ(stageOrder(off), "First: A B\nao/gtao: -AoMain\nLast: C D\n");
+}
+
+/// Two techniques, chosen by an option of the parent.
+void writeTechniques(const AssetFolder& folder) {
+    folder.write("assets/pipelines/flows/ao/off.flow.json", R"({ "stages": [] })");
+    for (const std::string name : {"gtao", "vbao"})
+        folder.write("assets/pipelines/flows/ao/" + name + ".flow.json",
+                     R"({ "options": { "power": { "type": "number", "default": )" +
+                         std::string(name == "gtao" ? "1" : "2") + R"( } },
+        "stages": [ { "stage": "ComputeStage", "name": "AoMain", "effect": ")" +
+                         name + R"(",
+                      "material": { "power": "$power" } } ] })");
+    folder.pipeline("parent", R"({ "output": "out", "targets": { "out": { "format": "RGBA8" } },
+        "options": { "ao": { "type": "choice", "default": "gtao", "choices": ["off", "gtao", "vbao", "hbao"] } },
+        "flows": [ { "flow": "ao/$ao" }, { "flow": "Last", "stages": [ { "stage": "A" } ] } ] })");
+}
+
+TEST(PipelineFlowFile, OptionChoosesIt) {
+    AssetFolder folder;
+    writeTechniques(folder);
+    const auto order = [&](std::map<std::string, std::string> options) {
+        return stageOrder(load(folder, "parent", {.nameOrPath = "", .options = std::move(options), .sets = {}}));
+    };
+    EXPECT_EQ(order({}), "ao/gtao: AoMain\nLast: A\n");
+    EXPECT_EQ(order({{"ao", "vbao"}}), "ao/vbao: AoMain\nLast: A\n");
+    EXPECT_EQ(order({{"ao", "off"}}), "Last: A\n") << "a file without stages is no flow";
+    const PipelineDesc vbao =
+        load(folder, "parent", {.nameOrPath = "", .options = {{"ao", "vbao"}, {"power", "3"}}, .sets = {}});
+    EXPECT_EQ(stageOf(vbao, "AoMain").material.find("power")->number(), 3) << "the file's own option";
+}
+
+TEST(PipelineFlowFile, ChildChangesTheChoiceOfItsParent) {
+    AssetFolder folder;
+    writeTechniques(folder);
+    folder.pipeline("child",
+                    R"({ "extends": "parent", "options": { "ao": { "override": true, "default": "vbao" } } })");
+    const PipelineDesc desc = load(folder, "child");
+    EXPECT_EQ(stageOrder(desc), "ao/vbao: AoMain\nLast: A\n");
+    EXPECT_EQ(stageOf(desc, "AoMain").material.find("power")->number(), 2);
+    folder.pipeline("user", R"({ "extends": "parent", "flows": [ { "flow": "more/$ao" } ] })");
+    folder.write("assets/pipelines/flows/more/gtao.flow.json", R"({ "stages": [ { "stage": "B" } ] })");
+    EXPECT_EQ(stageOrder(load(folder, "user")), "ao/gtao: AoMain\nLast: A\nmore/gtao: B\n")
+        << "an option of the parent";
+}
+
+TEST(PipelineFlowFile, MistakesInTheOptionThatChoosesIt) {
+    AssetFolder folder;
+    writeTechniques(folder);
+    const auto message = [&](const std::string& name, std::map<std::string, std::string> options) {
+        return messageOf([&] { load(folder, name, {.nameOrPath = "", .options = options, .sets = {}}); });
+    };
+    const std::string lost = message("parent", {{"ao", "hbao"}});
+    EXPECT_NE(lost.find("no flow file named 'ao/hbao', which 'ao/$ao' stands for"), std::string::npos) << lost;
+    EXPECT_NE(lost.find("ao/gtao, ao/off, ao/vbao"), std::string::npos) << lost;
+    const std::string wrong = message("parent", {{"ao", "gtoa"}});
+    EXPECT_NE(wrong.find("option 'ao' has no choice 'gtoa'"), std::string::npos) << wrong;
+    EXPECT_EQ(wrong.find("flow file"), std::string::npos) << "one mistake, one message: " << wrong;
+    folder.pipeline("unknown", R"({ "extends": "parent", "flows": [ { "flow": "more/$oa" } ] })");
+    const std::string unknown = message("unknown", {});
+    EXPECT_NE(unknown.find("'$oa' in the name of a flow names no option"), std::string::npos) << unknown;
+    EXPECT_NE(unknown.find("did you mean 'ao'?"), std::string::npos) << unknown;
+    EXPECT_NE(message("parent", {{"ao", "../gtao"}}).find("has no choice"), std::string::npos);
 }
 
 TEST(PipelineFlowFile, MistakesInIt) {

@@ -65,6 +65,20 @@ TEST(PipelineOptions, StandForScalarsAnywhere) {
     EXPECT_EQ(desc.options.at(1).defaultValue.number(), 0.5);
 }
 
+TEST(PipelineOptions, NumbersMayBeAutoWhereTheDefaultIs) {
+    const auto valueOf = [](const std::string& defaultText, std::map<std::string, std::string> options) {
+        const std::string declared =
+            R"("options": { "length": { "type": "number", "min": 1, "default": )" + defaultText + " } }";
+        return child(declared, {.nameOrPath = "", .options = std::move(options), .sets = {}}).options.back().value;
+    };
+    EXPECT_EQ(valueOf("\"auto\"", {}).string(), "auto");
+    EXPECT_EQ(valueOf("\"auto\"", {{"length", "2.5"}}).number(), 2.5);
+    EXPECT_EQ(valueOf("\"auto\"", {{"length", "auto"}}).string(), "auto");
+    EXPECT_THROW(valueOf("\"auto\"", {{"length", "0.5"}}), Error);
+    EXPECT_THROW(valueOf("2", {{"length", "auto"}}), Error);
+    EXPECT_THROW(valueOf("\"automatic\"", {}), Error);
+}
+
 TEST(PipelineOptions, ChoicesSetAndPrecedenceIsDocumentOptionSet) {
     const std::string keys = R"("options": { "quality": { "type": "choice", "default": "high", "choices": {
         "high": {}, "fast": { "set": { "B.material.x": 10, "aux.scale": 0.25, "B.effect": "q" } } } } })";
