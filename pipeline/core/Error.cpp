@@ -42,7 +42,19 @@ std::string withoutControls(std::string text) {
     return text;
 }
 
-/// The code points of a line, one string each; a byte that is no UTF-8 counts as one.
+/// Whether the bytes are as many as the first one promises (RFC 3629, 3).
+bool isWholeCodePoint(const std::string& point) {
+    const auto lead = static_cast<unsigned char>(point[0]);
+    const std::size_t size = lead < 0x80   ? 1
+                             : lead < 0xc2 ? 0
+                             : lead < 0xe0 ? 2
+                             : lead < 0xf0 ? 3
+                             : lead < 0xf5 ? 4
+                                           : 0;
+    return point.size() == size;
+}
+
+/// The code points of a line, one string each; bytes that are no UTF-8 are shown as '?'.
 std::vector<std::string> codePoints(const std::string& line) {
     std::vector<std::string> points;
     for (const char c : line) {
@@ -53,6 +65,8 @@ std::vector<std::string> codePoints(const std::string& line) {
             points.emplace_back(1, c == '\t' ? ' ' : c);
         }
     }
+    for (std::string& point : points)
+        if (!isWholeCodePoint(point)) point = "?";
     return points;
 }
 

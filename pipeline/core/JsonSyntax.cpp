@@ -53,7 +53,12 @@ private:
         const JsonToken token = jsonTokenAt(text_, pos);
         std::string word(text_.substr(token.begin, std::min(token.end - token.begin, kMaxQuotedBytes)));
         if (token.end - token.begin > kMaxQuotedBytes) word += "…";
-        return word.front() == '"' || word.front() == '\'' ? word : "'" + word + "'";
+        if (word.front() == '"') {
+            word.erase(0, 1);
+            if (word.ends_with('"')) word.pop_back();
+            return "the string '" + word + "'";
+        }
+        return word.front() == '\'' ? word : "'" + word + "'";
     }
 
     Problem problem(std::size_t pos, std::string message, std::string help) const {

@@ -89,6 +89,7 @@ void BindingResolver::assignBindings() {
     std::map<std::uint32_t, std::string> taken;
     for (const auto& [name, slot] : bindings_)
         if (slot.set == kMaterialSet) taken.emplace(slot.binding, name);
+    std::set<std::string> refused;
     for (const Resource& r : resources_) {
         if (bindings_.contains(r.name) || r.binding < 0 || (r.set >= 0 && r.set != static_cast<int>(kMaterialSet)))
             continue;
@@ -99,6 +100,7 @@ void BindingResolver::assignBindings() {
             problems_.error(r.where,
                             fmt::format("'{}' and '{}' both have binding {} of set 1", r.name, it->second, r.binding),
                             "leave the numbers out: names are enough");
+            refused.insert(r.name);
         }
     }
     std::uint32_t next = 0;
@@ -111,7 +113,8 @@ void BindingResolver::assignBindings() {
             slots_[r.name] = {kMaterialSet, next++};
         }
     }
-    for (const Resource& r : resources_) checkNumbers(r, slots_.at(r.name));
+    for (const Resource& r : resources_)
+        if (!refused.contains(r.name)) checkNumbers(r, slots_.at(r.name));
 }
 
 void BindingResolver::checkNumbers(const Resource& r, const BindingSlot& slot) {

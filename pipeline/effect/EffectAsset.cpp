@@ -77,7 +77,8 @@ private:
     bool readBody(std::size_t start, const std::string& what, EffectProgram& body) {
         skipBlank();
         if (text_.substr(at_, 2) != "%{") {
-            problems_.error(placeOf(start, what.size()), fmt::format("'{}' is not followed by '%{{'", what));
+            problems_.error(placeOf(start, what.size()), fmt::format("'{}' is not followed by '%{{'", what),
+                            "begin a block with %{ and end it with }%");
             stopped_ = true;
             return false;
         }

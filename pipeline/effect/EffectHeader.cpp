@@ -37,7 +37,8 @@ public:
 private:
     bool expectMap(const Value& value, const char* what) {
         if (value.isObject()) return true;
-        problems_.error(value.where(), fmt::format("{} must be a map, not {}", what, value.typeName()));
+        problems_.error(value.where(), fmt::format("{} must be a map, not {}", what, value.typeName()),
+                        "write key: value");
         return false;
     }
 
@@ -102,7 +103,7 @@ private:
 
     void readPropertyIndex(const Value& index, EffectPass& pass) {
         if (!index.isInteger() || index.integer() < 0 || index.integer() > 1000)
-            problems_.error(index.where(), "'propertyIndex' must be the number of a pass");
+            problems_.error(index.where(), "'propertyIndex' must be the number of a pass", "passes count from 0");
         else
             pass.propertyIndex = static_cast<int>(index.integer());
     }
@@ -162,7 +163,8 @@ private:
                 pass.embeddedMacros[member.key] = value.string();
             else
                 problems_.error(value.where(),
-                                fmt::format("macro '{}' must be a bool, an integer or a word", member.key));
+                                fmt::format("macro '{}' must be a bool, an integer or a word", member.key),
+                                "such as true, 3 or LINEAR");
         }
     }
 
@@ -195,7 +197,8 @@ private:
         if (!good)
             problems_.error(
                 value.where(),
-                fmt::format("the value of property '{}' must be a number, 2 to 4 numbers or a word", property.name));
+                fmt::format("the value of property '{}' must be a number, 2 to 4 numbers or a word", property.name),
+                "value: 0.5, value: [1, 0, 0], or for a texture value: white");
         else
             property.value = value;
     }

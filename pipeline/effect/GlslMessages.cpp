@@ -4,8 +4,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <charconv>
+#include <map>
 #include <optional>
+#include <sstream>
 
 #include "core/Text.h"
 #include "effect/Declarations.h"
@@ -39,7 +42,11 @@ std::optional<Message> parseMessage(std::string_view line) {
         message.word = line.substr(1, close - 1);
         line.remove_prefix(close + 4);
     }
+    line.remove_prefix(std::min(line.find_first_not_of(' '), line.size()));
     message.text = line;
+    if (const auto blank = message.text.find("' ");
+        blank != std::string::npos && message.text.find("from ' ") + 5 == blank)
+        message.text.erase(blank + 1, 1);
     while (!message.text.empty() && message.text.back() == ' ') message.text.pop_back();
     return message;
 }
@@ -81,6 +88,70 @@ std::string looseUniformName(const StageSource& source, int line) {
     return {};
 }
 
+constexpr std::string_view kSyntaxError = "syntax error";
+
+/// A token of glslang's grammar as it stands in a program: SEMICOLON → ';', RETURN → 'return'.
+std::string plainToken(const std::string& token) {
+    static const std::map<std::string, std::string, std::less<>> kTokens = {{"COMMA", "','"},
+                                                                            {"SEMICOLON", "';'"},
+                                                                            {"LEFT_PAREN", "'('"},
+                                                                            {"RIGHT_PAREN", "')'"},
+                                                                            {"LEFT_BRACE", "'{'"},
+                                                                            {"RIGHT_BRACE", "'}'"},
+                                                                            {"LEFT_BRACKET", "'['"},
+                                                                            {"RIGHT_BRACKET", "']'"},
+                                                                            {"EQUAL", "'='"},
+                                                                            {"COLON", "':'"},
+                                                                            {"DOT", "'.'"},
+                                                                            {"IDENTIFIER", "a name"},
+                                                                            {"INTCONSTANT", "a number"},
+                                                                            {"FLOATCONSTANT", "a number"},
+                                                                            {"$end", "the end of the program"}};
+    if (const auto known = kTokens.find(token); known != kTokens.end()) return known->second;
+    std::string word = token;
+    std::transform(word.begin(), word.end(), word.begin(), [](unsigned char c) { return std::tolower(c); });
+    return "'" + word + "'";
+}
+
+/// "syntax error, unexpected RETURN, expecting COMMA or SEMICOLON" → "unexpected 'return', expected ',' or ';'".
+std::string plainSyntax(const std::string& text) {
+    std::istringstream words(text.substr(std::min(text.size(), kSyntaxError.size() + 2)));
+    std::string plain;
+    for (std::string word; words >> word;) {
+        const bool comma = word.ends_with(',');
+        if (comma) word.pop_back();
+        const bool isToken =
+            word == "$end" || std::any_of(word.begin(), word.end(), [](char c) { return c >= 'A' && c <= 'Z'; });
+        plain += (plain.empty() ? "" : " ") + (word == "expecting" ? "expected" : isToken ? plainToken(word) : word);
+        if (comma) plain += ',';
+    }
+    return plain.empty() ? "this cannot be read" : plain;
+}
+
+std::string adviceFor(std::string_view text) {
+    if (text == "undeclared identifier") return "declare it, or include the chunk that does";
+    if (contains(text, "cannot convert")) return "GLSL turns int into float and nothing else: write the conversion";
+    if (contains(text, "constructor") || contains(text, "construction"))
+        return "give as many components as the type has";
+    if (contains(text, "no matching overloaded function"))
+        return "check the function's name and the types of its arguments";
+    return "programs are GLSL 4.50 for Vulkan: see docs/effect-format.md";
+}
+
+/// Link messages in one line, names in single quotes.
+std::string plainLink(std::string text) {
+    const auto replace = [&](std::string_view from, std::string_view to) {
+        for (std::size_t at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size()))
+            text.replace(at, from.size(), to);
+    };
+    replace("Linking vertex and fragment stages: ", "");
+    replace(":;", ":");
+    replace("\" ", "'");
+    replace("\"", "'");
+    replace("Types must match", "types must match");
+    return text;
+}
+
 Problem describe(const Message& message, const StageSource& source, int line) {
     if (contains(message.text + message.word, "non-opaque uniforms outside a block")) {
         const std::string name = looseUniformName(source, line);
@@ -90,12 +161,14 @@ Problem describe(const Message& message, const StageSource& source, int line) {
     if (message.word == "#error") {  // glslang repeats its text word by word; the line itself reads better.
         const std::string_view text = splitLines(source.text)[static_cast<std::size_t>(line) - 1];
         const auto begin = text.find_first_not_of(' ', text.find("error") + 5);
-        return {Severity::Error,
-                placeOf(source, line, {}),
+        return {Severity::Error, placeOf(source, line, {}),
                 "#error " + std::string(text.substr(std::min(begin, text.size()))),
-                {}};
+                "the program refuses itself: change what it asks for, such as a define"};
     }
-    Problem problem{Severity::Error, placeOf(source, line, message.word), "GLSL: " + message.text, {}};
+    const bool syntax = message.text.starts_with(kSyntaxError);
+    Problem problem{Severity::Error, placeOf(source, line, message.word),
+                    "GLSL: " + (syntax ? plainSyntax(message.text) : message.text),
+                    syntax ? "a ';' or a bracket may be missing in front of it" : adviceFor(message.text)};
     if (!message.word.empty()) problem.message = fmt::format("GLSL: '{}': {}", message.word, message.text);
     if (message.text == "undeclared identifier" || contains(message.text, "no matching overloaded function")) {
         auto names = Declarations(source.flat).names();
@@ -121,7 +194,8 @@ void reportGlslMessages(std::string_view log, const StageSource& source, Problem
         const int line = message->line - headLines;
         if (line < 1) {
             problems.error(source.flat.locate(1),
-                           fmt::format("GLSL: in the defines: {} {}", message->word, message->text));
+                           fmt::format("GLSL: in the defines: {} {}", message->word, message->text),
+                           "check the values of the defines");
             continue;
         }
         const Problem problem = describe(*message, source, line);
@@ -146,14 +220,14 @@ void reportLinkMessages(std::string_view log, const std::vector<StageSource>& so
         for (const GlslToken& token : tokenizeGlsl(text)) {
             const SourceLoc place = token.isName() ? declarations.declared(token.text) : SourceLoc{};
             if (place.line == 0) continue;
-            if (where.line == 0) where = place;
+            where = place;  // the last one: the fragment program is the author's own, the vertex program often shared
             seen.push_back(fmt::format("{}:{}", place.file, place.line));
             break;
         }
     }
     if (where.line == 0 && !sources.empty()) where = sources.front().flat.locate(1);
-    problems.error(where, "GLSL: the stages do not fit together: " + text,
-                   seen.size() > 1 ? "declared at " + join(seen, " and ") : std::string());
+    problems.error(where, "GLSL: the stages do not fit together: " + plainLink(text),
+                   seen.size() > 1 ? "declared at " + join(seen, " and ") : adviceFor(text));
 }
 
 }  // namespace crevice

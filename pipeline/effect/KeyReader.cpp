@@ -17,10 +17,16 @@ const Value* KeyReader::find(const char* key) {
 }
 
 const Value* KeyReader::typed(const char* key, bool (Value::*is)() const, const char* wanted) {
+    const std::string_view kind = wanted;
+    const char* example = kind == "a string"        ? "word"
+                          : kind == "a number"      ? "1"
+                          : kind == "true or false" ? "true"
+                          : kind == "a list"        ? "[ … ]"
+                                                    : "{ … }";
     const Value* value = find(key);
     if (value == nullptr || (value->*is)()) return value;
-    problems_.error(value->where(),
-                    fmt::format("'{}' of {} must be {}, not {}", key, what_, wanted, value->typeName()));
+    problems_.error(value->where(), fmt::format("'{}' of {} must be {}, not {}", key, what_, wanted, value->typeName()),
+                    fmt::format("write {}: {}", key, example));
     return nullptr;
 }
 

@@ -102,7 +102,8 @@ Material::Material(const EffectVariant& variant) : variant_(variant), pass_(*var
 void Material::apply(const Value& object, Problems& problems) {
     if (object.isNull()) return;
     if (!object.isObject()) {
-        problems.error(object.where(), fmt::format("'material' must be an object, not {}", object.typeName()));
+        problems.error(object.where(), fmt::format("'material' must be an object, not {}", object.typeName()),
+                       "write { \"property\": value, … }");
         return;
     }
     for (const Member& member : object.members()) {
@@ -133,7 +134,7 @@ void Material::setValue(const EffectProperty& property, const Value& value, Prob
     if (isTexture) {
         problems.error(value.where(),
                        fmt::format("property '{}' is a texture and cannot be {}", property.name, value.typeName()),
-                       "give white, black, grey, normal or a file");
+                       "give white, black, grey or normal");
         return;
     }
     if (!checkNumbers(property, value, problems)) return;
@@ -143,7 +144,8 @@ void Material::setValue(const EffectProperty& property, const Value& value, Prob
     const std::uint32_t expected = placed ? place.components : wanted;
     if (expected != 0 && countOf(value) != expected) {
         problems.error(value.where(),
-                       fmt::format("property '{}' takes {}, not {}", property.name, numbers(expected), countOf(value)));
+                       fmt::format("property '{}' takes {}, not {}", property.name, numbers(expected), countOf(value)),
+                       expected == 1 ? "give one number" : fmt::format("give a list of {}: [ … ]", numbers(expected)));
         return;
     }
     values_[property.name] = value;
@@ -161,7 +163,7 @@ void Material::setTexture(const EffectProperty& property, MaterialSampler& sampl
     if (!value.isString() || value.string().empty()) {
         problems.error(value.where(),
                        fmt::format("property '{}' is a texture and cannot be {}", property.name, value.typeName()),
-                       "give white, black, grey, normal or a file");
+                       "give white, black, grey or normal");
         return;
     }
     sampler.texture = value.string();
@@ -175,8 +177,11 @@ bool Material::checkNumbers(const EffectProperty& property, const Value& value, 
         for (const Value& item : value.items()) good = good && item.isNumber();
     if (!good) {
         const std::string orAuto = isAuto(property.value) ? " or the word auto" : "";
-        problems.error(value.where(), fmt::format("property '{}' takes numbers{}, not {}", property.name, orAuto,
-                                                  value.isArray() ? "this list" : value.typeName()));
+        problems.error(value.where(),
+                       fmt::format("property '{}' takes numbers{}, not {}", property.name, orAuto,
+                                   value.isArray() ? "this list" : value.typeName()),
+                       fmt::format("give {}, as its default {}", numbers(std::max(1u, countOf(property.value))),
+                                   property.value.toJson(-1)));
         return false;
     }
     for (std::uint32_t i = 0; i < countOf(value); ++i) {

@@ -159,6 +159,8 @@ private:
     }
 
     void addSampler(const sc::Resource& r) {
+        if (compiler_.get_type(r.type_id).image.dim == spv::DimBuffer)
+            return refuse(r, "a texel buffer", "declare a readonly storage buffer, or a sampler2D");
         ShaderResource& sampler = merge(compiler_.get_name(r.id), ResourceKind::CombinedSampler, r);
         sampler.readOnly = true;
         sampler.cube = compiler_.get_type(r.type_id).image.dim == spv::DimCube;

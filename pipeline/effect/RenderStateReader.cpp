@@ -153,7 +153,8 @@ void readColorMask(KeyReader& reader, std::uint8_t& mask) {
     else if (value->isString())
         readEnum(reader, "blendColorMask", kColorMasks, mask);
     else
-        reader.problems().error(value->where(), "'blendColorMask' must be 0 to 15 or one of none, r, g, b, a, all");
+        reader.problems().error(value->where(), "'blendColorMask' must be 0 to 15 or one of none, r, g, b, a, all",
+                                "add up 1 for red, 2 for green, 4 for blue and 8 for alpha");
 }
 
 BlendTarget readBlendTarget(KeyReader& reader) {
@@ -178,7 +179,8 @@ void readBlend(KeyReader& reader, RenderState& state) {
         for (const Value& item : targets->items()) {
             if (!item.isObject()) {
                 reader.problems().error(item.where(),
-                                        fmt::format("a blend target must be a map, not {}", item.typeName()));
+                                        fmt::format("a blend target must be a map, not {}", item.typeName()),
+                                        "write { blend: true, blendSrc: src_alpha, … }");
                 continue;
             }
             KeyReader target(item, "a blend target", reader.reading(), reader.problems());

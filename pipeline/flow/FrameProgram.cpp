@@ -38,6 +38,22 @@ void readParams(StageProgram& program, Problems& problems) {
     reader.finish();
 }
 
+/// What a document says beyond what the class has a use for would be dropped in silence.
+void checkListsFit(const StageDesc& desc, const StageDeclaration& declaration, Problems& problems) {
+    const auto outputs = static_cast<std::size_t>(std::count_if(
+        declaration.writes.begin(), declaration.writes.end(),
+        [](const TargetWrite& write) { return write.kind == WriteKind::Color || write.kind == WriteKind::Storage; }));
+    const auto check = [&](const char* key, std::size_t listed, std::size_t used) {
+        if (listed <= used) return;
+        problems.error(desc.where,
+                       fmt::format("'{}' of stage '{}' has {} entries, and class '{}' has a use for {}", key, desc.name,
+                                   listed, desc.stageClass, used),
+                       used == 0 ? "remove the key" : "remove the last ones, or choose another class");
+    };
+    check("writes", desc.writes.size(), outputs);
+    check("queues", desc.queues.size(), declaration.queues.size());
+}
+
 }  // namespace
 
 FrameProgram::FrameProgram(PipelineDesc desc, const StageRegistry& registry, EffectLibrary& library, const Log& log,
@@ -70,6 +86,7 @@ void FrameProgram::makeStages(const StageRegistry& registry, const RunInfo& run,
                 readParams(program, problems);
                 StageIo io(program.declaration, desc, run);
                 program.stage->declare(io);
+                checkListsFit(desc, program.declaration, problems);
                 stages_.push_back(std::move(program));
             });
         }
@@ -155,7 +172,7 @@ void FrameProgram::checkListedReads(const StageDesc& desc, const StageUse& use, 
         for (const TargetRead& read : use.reads) names.push_back(read.target);
         problems.error(
             listed.where,
-            fmt::format("stage '{}' lists '{}' in \"reads\", and its shaders do not read it", desc.name, listed.target),
+            fmt::format("stage '{}' lists '{}' in 'reads', and its shaders do not read it", desc.name, listed.target),
             names.empty() ? "its shaders read no target: remove the entry" : "it reads: " + join(names));
     }
 }

@@ -9,6 +9,7 @@
 
 #include "flow/RenderStage.h"
 #include "flow/Surface.h"
+#include "flow/VertexInput.h"
 #include "flow/Wiring.h"
 
 namespace crevice {
@@ -63,16 +64,25 @@ const EffectVariant& ProgramCompiler::compile(const StageProgram& stage, const s
                            .where = desc.effectWhere.line ? desc.effectWhere : desc.where};
     std::set<std::string> known;
     library_.asset(effect, request.where);
-    for (const DefineInfo& info : library_.discoverDefines(effect, choice.technique, choice.pass))
-        known.insert(info.name);
+    const std::vector<DefineInfo> infos = library_.discoverDefines(effect, choice.technique, choice.pass);
+    for (const DefineInfo& info : infos) known.insert(info.name);
     for (const auto& [name, value] : offered) {
         if (known.contains(name)) request.defines.emplace(name, value);
     }
     if (desc.defines.isObject()) {
+        Problems problems;  // each at its own place: the library knows one for all
         for (const Member& member : desc.defines.members()) {
-            request.where = member.keyLoc;
-            request.defines.insert_or_assign(member.key, defineText(member.value, member.key));
+            const std::string value = defineText(member.value, member.key);
+            const auto info = std::find_if(infos.begin(), infos.end(),
+                                           [&](const DefineInfo& other) { return other.name == member.key; });
+            if (info != infos.end()) {
+                checkDefine(*info, value, member.value.where(), problems);
+            } else {
+                request.where = member.keyLoc;
+            }
+            request.defines.insert_or_assign(member.key, value);
         }
+        problems.throwIfErrors();
     }
     return library_.get(request, globals_.bindings());
 }
@@ -90,6 +100,7 @@ void ProgramCompiler::compileDraws(StageProgram& stage, Problems& problems) {
                                : fmt::format("effect '{}' of stage '{}' is a compute effect", draw.effect, desc.name),
                            draw.compute ? "give its pass \"compute: PROGRAM\", or use FullscreenStage"
                                         : "use ComputeStage for it");
+            continue;
         }
         checkBlocks(stage, variant, problems);
         program.material = makeMaterial(variant, merged(draw.material, desc.material), problems);
@@ -120,6 +131,7 @@ SurfaceProgram ProgramCompiler::compileSurface(const StageProgram& stage, const 
     SurfaceInputs inputs = surfaceInputs(material, hasTangents);
     const EffectVariant& variant = compile(stage, queue.effect, choice, inputs.defines);
     checkBlocks(stage, variant, problems);
+    static_cast<void>(vertexInput(variant));  // refuses attributes that meshes do not have
     surface.variant = &variant;
     surface.doubleSided = material.doubleSided;
     surface.material = makeMaterial(

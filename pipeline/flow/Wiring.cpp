@@ -34,9 +34,9 @@ bool wireWrite(const WiringInputs& in, Wire& wire, std::size_t& nextWrite) {
             return true;
         }
     }
-    std::vector<const TargetWrite*> storage;
+    std::vector<const TargetWrite*> storage;  // What no image has the name of.
     for (const TargetWrite& write : in.writes) {
-        if (write.kind == WriteKind::Storage) storage.push_back(&write);
+        if (write.kind == WriteKind::Storage && !in.variant.info.find(write.target)) storage.push_back(&write);
     }
     if (nextWrite >= storage.size()) return false;
     wire.target = storage[nextWrite]->target;
@@ -56,13 +56,24 @@ const MaterialSampler* findTexture(const Material& material, const std::string& 
 
 void reportUnwired(const WiringInputs& in, const ShaderResource& resource, Problems& problems) {
     problems.error(resource.where.line ? resource.where : in.stage.where,
-                   fmt::format("'{}' in effect '{}' is bound to nothing in stage '{}': no target, \"reads\" entry or "
+                   fmt::format("'{}' in effect '{}' is bound to nothing in stage '{}': no target, 'reads' entry or "
                                "texture property has this name",
                                resource.name, in.variant.effect, in.stage.name),
                    fmt::format("declare a target '{0}', or wire it: \"reads\": {{ \"{0}\": \"TARGET\" }}, or give the "
                                "pass a property '{0}' with the value white",
                                resource.name),
                    {{in.stage.where, fmt::format("stage '{}' is here", in.stage.name)}});
+}
+
+/// Material textures are the built-in ones; pictures come from scenes and targets.
+void checkTexture(const WiringInputs& in, const MaterialSampler& texture, Problems& problems) {
+    static constexpr const char* kBuiltIn[] = {"white", "black", "grey", "normal"};
+    if (std::find(std::begin(kBuiltIn), std::end(kBuiltIn), texture.texture) != std::end(kBuiltIn)) return;
+    problems.error(
+        texture.where,
+        fmt::format("texture '{}' of '{}' in stage '{}' is not built in", texture.texture, texture.name, in.stage.name),
+        fmt::format("give white, black, grey or normal; or sample a target: \"reads\": {{ \"{}\": \"TARGET\" }}",
+                    texture.name));
 }
 
 void checkReadsAreUsed(const WiringInputs& in, Problems& problems) {
@@ -76,7 +87,7 @@ void checkReadsAreUsed(const WiringInputs& in, Problems& problems) {
     for (const ReadWire& wire : in.stage.reads) {
         if (wire.shaderName.empty() || std::find(names.begin(), names.end(), wire.shaderName) != names.end()) continue;
         problems.error(wire.where,
-                       fmt::format("\"reads\" of stage '{}' names '{}', and effect '{}' has no such sampler",
+                       fmt::format("'reads' of stage '{}' names '{}', and effect '{}' has no such sampler",
                                    in.stage.name, wire.shaderName, in.variant.effect),
                        names.empty() ? "the effect has no samplers of its own: remove the entry"
                                      : didYouMean(wire.shaderName, names, "samplers"));
@@ -110,6 +121,7 @@ std::vector<Wire> wireShader(const WiringInputs& in, Problems& problems) {
             wire.target = resource.name;
         } else if (texture) {
             wire.texture = texture->texture;
+            checkTexture(in, *texture, problems);
         } else if (resource.active) {
             reportUnwired(in, resource, problems);
             continue;

@@ -64,7 +64,7 @@ public:
         }
         planOutput();
         restoreNeverWritten();
-        reportUnread();
+        if (!problems_.hasErrors()) reportUnread();
         problems_.throwIfErrors();
         plan_.notes = std::move(problems_);
         return std::move(plan_);
@@ -185,7 +185,7 @@ private:
                                 track.desc->name),
                     fmt::format("write every level that is read, or read one that is written, as in \"{}@0\"",
                                 track.desc->name),
-                    {{track.desc->where, fmt::format("'{}' is declared here", track.desc->name)}});
+                    withStage(use, where, {track.desc->where, fmt::format("'{}' is declared here", track.desc->name)}));
                 return;
             }
             if (level.firstWriter <= use)
@@ -196,9 +196,17 @@ private:
                 fmt::format("'{}' {} '{}' before '{}' writes it", stage.stage, verb, track.desc->name, writer.stage),
                 fmt::format("place '{}' before '{}' in the document (\"before\": \"{}\" in an insert)", writer.stage,
                             stage.stage, stage.stage),
-                {{writer.where, placeInFlow(level.firstWriter)}});
+                withStage(use, where, {writer.where, placeInFlow(level.firstWriter)}));
             return;
         }
+    }
+
+    /// A remark, and where the stage stands when its shader is the place of the problem.
+    std::vector<Remark> withStage(std::size_t use, const SourceLoc& where, Remark remark) const {
+        std::vector<Remark> remarks{std::move(remark)};
+        const SourceLoc& stage = plan_.uses[use].where;
+        if (where.file != stage.file || where.line != stage.line) remarks.push_back({stage, placeInFlow(use)});
+        return remarks;
     }
 
     std::string placeInFlow(std::size_t use) const {
@@ -295,7 +303,8 @@ private:
                 fmt::format("'{}' writes '{}', which no stage reads and which is not the output", writer.stage, name);
             const std::vector<Remark> remarks{{track.desc->where, fmt::format("'{}' is declared here", name)}};
             if (isClassStage(writer.stage)) {
-                problems_.note(writer.where, message);
+                // Inherited, it offers to the child what the parent needed: no fault of the child's.
+                if (desc_.path.empty() || writer.where.file == desc_.path) problems_.note(writer.where, message);
             } else {
                 warn(writer.where, message, "read it in a later stage, or remove the stage", remarks);
             }

@@ -106,8 +106,8 @@ void GlobalNames::addTarget(const std::string& name, std::optional<std::uint32_t
         return;
     }
     if (known) {
-        const char* what = known->slot.target ? "declared twice" : "the name of something that is not a target";
-        problems_.error(where, fmt::format("target '{}' is {}", name, what), "give the target another name",
+        const char* what = known->slot.target ? "is declared twice" : "has a name that is built in for something else";
+        problems_.error(where, fmt::format("target '{}' {}", name, what), "give the target another name",
                         {placeOf(*known)});
         return;
     }

@@ -139,17 +139,17 @@ ObjectReader::ObjectReader(const Value& object, const KeyTable& table, std::stri
     for (const KeySpec& spec : table.keys)
         if (spec.required && !object.find(spec.key))
             problems.error(object.where(), fmt::format("missing key '{}' in {}", spec.key, what_),
-                           fmt::format("add \"{}\": {}", spec.key, spec.help));
+                           fmt::format("add \"{}\": {}", spec.key, keyTypeName(spec)));
 }
 
 void ObjectReader::check(const Member& member, const KeySpec& spec, Problems& problems) {
     const Value& value = member.value;
     if (!hasKind(value, spec.kind)) {
         bad_.push_back(member.key);
-        problems.error(
-            value.where(),
-            fmt::format("'{}' of {} must be {}, found {}", spec.key, what_, kindWords(spec.kind), value.typeName()),
-            fmt::format("expected: {}", keyTypeName(spec)));
+        problems.error(value.where(),
+                       fmt::format("'{}' of {} must be {}, found {}", spec.key, what_, kindWords(spec.kind),
+                                   value.isNumber() ? value.toJson(-1) : value.typeName()),
+                       fmt::format("expected: {}", keyTypeName(spec)));
     } else if (spec.kind == KeyKind::Choice) {
         const std::vector<std::string> names = spec.names();
         if (std::find(names.begin(), names.end(), value.string()) != names.end()) return;

@@ -60,7 +60,7 @@ void Editor::apply(const Value& edit) {
         problems_.error(edit.where(), "an edit says nothing to do",
                         didYouMean(first, {std::begin(kVerbs), std::end(kVerbs)}, "verbs"));
     } else if (verbs.size() > 1) {
-        problems_.error(edit.where(), fmt::format("an edit has {} verbs: {}", verbs.size(), join(verbs)),
+        problems_.error(edit.where(), fmt::format("an edit has {} verbs: '{}'", verbs.size(), join(verbs, "', '")),
                         "write one edit for each; they apply in order");
     } else if (verbs[0] == "insert") {
         insert(edit);

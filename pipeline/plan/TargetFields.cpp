@@ -145,7 +145,8 @@ void resolveLike(std::size_t index, std::vector<OpenTarget>& all, std::vector<st
     const auto parent = std::find_if(all.begin(), all.end(), [&](const OpenTarget& t) { return t.desc.name == like; });
     if (std::find(path.begin(), path.end(), like) != path.end()) {
         path.push_back(like);
-        problems.error(target.likeWhere, fmt::format("targets are like each other in a circle: {}", join(path, " → ")),
+        problems.error(target.likeWhere,
+                       fmt::format("targets are like each other in a circle: '{}'", join(path, "' → '")),
                        "give one of them a 'format' and no 'like'");
         return;
     }

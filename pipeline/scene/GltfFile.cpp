@@ -20,6 +20,7 @@ constexpr std::uint32_t kGlbMagic = 0x46546c67;   // "glTF"
 constexpr std::uint32_t kJsonChunk = 0x4e4f534a;  // "JSON"
 constexpr std::uint32_t kBinaryChunk = 0x004e4942;
 constexpr double kMaxInteger = 9007199254740992.0;  // 2^53: integers beyond are not exact in JSON
+constexpr const char* kRepair = "this breaks a rule of glTF 2.0: repair the entry, or export the file again";
 constexpr std::array kSupportedExtensions = {"KHR_lights_punctual", "KHR_materials_emissive_strength",
                                              "KHR_materials_unlit", "KHR_mesh_quantization"};
 
@@ -91,6 +92,18 @@ std::string decodeUri(const std::string& uri) {
     return text;
 }
 
+// How many bytes a "data:…;base64," URI holds; 0 when it is none.
+std::size_t base64Bytes(std::string_view uri) {
+    const std::size_t comma = uri.find(',');
+    if (comma == std::string_view::npos || !uri.substr(0, comma).ends_with(";base64")) return 0;
+    std::string_view digits = uri.substr(comma + 1);
+    while (digits.ends_with('=')) digits.remove_suffix(1);
+    const bool good = std::all_of(digits.begin(), digits.end(), [](unsigned char c) {
+        return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '+' || c == '/';
+    });
+    return good ? digits.size() * 3 / 4 : 0;
+}
+
 /// Answers tinygltf's wishes for files.
 struct Reader {
     fs::path folder;
@@ -145,8 +158,11 @@ void checkVersion(const File& file) {
     if (text.starts_with("1.") || text == "1")
         throw Error(version->where(), "this is glTF 1.0; Crevice reads glTF 2.0", "convert it to glTF 2.0");
     if (!text.starts_with("2."))
-        throw Error(version ? version->where() : SourceLoc{file.name},
-                    "'asset.version' is not 2.x: this is no glTF 2.0 file");
+        throw Error(version       ? version->where()
+                    : file.binary ? SourceLoc{file.name}
+                                  : file.json.where(),
+                    "'asset.version' is not 2.x: this is no glTF 2.0 file",
+                    "a glTF 2.0 file has \"asset\": { \"version\": \"2.0\" }");
 }
 
 void checkExtensions(const File& file) {
@@ -202,6 +218,8 @@ void checkBuffers(const File& file, Reader& reader) {
                     "the file may be truncated: export or download it again");
             std::size_t& wanted = reader.wantedBytes[path->lexically_normal()];
             wanted = std::max(wanted, length);
+        } else if (const Value* uri = buffers[i].find("uri"); uri && base64Bytes(uri->string()) < length) {
+            file.fail("buffers", i, fmt::format("'uri' does not hold the {} bytes of 'byteLength' as base64", length));
         }
     }
 }
@@ -239,6 +257,18 @@ void checkIntegers(const File& file) {
     }
     const auto& images = itemsOf(file.json, "images");
     for (std::size_t i = 0; i < images.size(); ++i) sizeMember(file, "images", i, images[i], "bufferView");
+    const auto& nodes = itemsOf(file.json, "nodes");
+    for (std::size_t i = 0; i < nodes.size(); ++i)
+        for (const char* key : {"mesh", "skin", "camera"}) sizeMember(file, "nodes", i, nodes[i], key);
+    const auto& meshes = itemsOf(file.json, "meshes");
+    for (std::size_t i = 0; i < meshes.size(); ++i)
+        for (const Value& primitive : itemsOf(meshes[i], "primitives")) {
+            for (const char* key : {"indices", "material", "mode"}) sizeMember(file, "meshes", i, primitive, key);
+            const Value* attributes = findObject(primitive, "attributes");
+            if (!attributes) continue;
+            for (const Member& attribute : attributes->members())
+                sizeMember(file, "meshes", i, *attributes, attribute.key.c_str());
+        }
 }
 
 void checkImages(const File& file, const Reader& reader) {
@@ -264,11 +294,10 @@ void parseModel(File& file, Reader& reader, std::span<const std::byte> bytes) {
     } catch (const std::exception& failure) {
         errors += failure.what();
     }
-    if (!good) {
-        while (!errors.empty() && errors.back() == '\n') errors.pop_back();
-        throw Error(SourceLoc{file.name},
-                    "the glTF cannot be read: " + (errors.empty() ? "no reason is known" : errors));
-    }
+    // What tinygltf says is in its own terms; the checks above have words for what is likely.
+    if (!good)
+        throw Error(SourceLoc{file.name}, "the glTF breaks a rule of its format that is not told apart here",
+                    "check the file with a glTF validator, or export it again");
 }
 
 }  // namespace
@@ -281,7 +310,7 @@ SourceLoc File::where(std::string_view list, std::size_t index) const {
 }
 
 void File::fail(std::string_view list, std::size_t index, const std::string& message, const std::string& help) const {
-    throw Error(where(list, index), fmt::format("{}[{}]: {}", list, index, message), help);
+    throw Error(where(list, index), fmt::format("{}[{}]: {}", list, index, message), help.empty() ? kRepair : help);
 }
 
 void File::warn(std::string_view list, std::size_t index, const std::string& message) const {
@@ -301,7 +330,10 @@ File open(const fs::path& path, const LoadOptions& options) {
     constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
     if (json.starts_with(kByteOrderMark)) json.remove_prefix(kByteOrderMark.size());
     file.json = parseJson(json, file.name, {.maxBytes = options.limits.maxFileBytes});
-    if (!file.json.isObject()) throw Error(SourceLoc{file.name}, "the glTF's JSON is not an object");
+    if (!file.json.isObject())
+        throw Error(file.binary ? SourceLoc{file.name} : file.json.where(),
+                    fmt::format("the glTF must be an object, found {}", file.json.typeName()),
+                    "a glTF is one object that begins with '{'");
 
     const fs::path absolute = fs::absolute(path).parent_path();
     std::vector<fs::path> roots = options.allowedRoots;

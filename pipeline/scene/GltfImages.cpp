@@ -139,7 +139,8 @@ SamplerDesc readSampler(const File& file, int index) {
 int Images::use(int texture, bool srgb, std::string_view user) {
     if (std::size_t(texture) >= file_.model.textures.size())
         throw Error(SourceLoc{file_.name},
-                    fmt::format("{}: names textures[{}], the file has {}", user, texture, file_.model.textures.size()));
+                    fmt::format("{}: names textures[{}], the file has {}", user, texture, file_.model.textures.size()),
+                    "textures count from 0");
     const tinygltf::Texture& from = file_.model.textures[texture];
     if (from.source < 0) {
         file_.warn("textures", texture, fmt::format("has no PNG or JPEG 'source'; {} is left out", user));

@@ -58,8 +58,9 @@ std::vector<int> rootNodes(const File& file) {
     if (!model.scenes.empty()) {
         const int scene = std::max(model.defaultScene, 0);
         if (std::size_t(scene) >= model.scenes.size())
-            throw Error(SourceLoc{file.name},
-                        fmt::format("'scene' is {}, the file has {}", scene, model.scenes.size()));
+            throw Error(file.binary ? SourceLoc{file.name} : file.json.find("scene")->where(),
+                        fmt::format("'scene' is {}, the file has {}", scene, model.scenes.size()),
+                        "scenes count from 0");
         return model.scenes[scene].nodes;
     }
     // A library of nodes without a scene: show every node that is nobody's child.
@@ -78,25 +79,26 @@ std::vector<Placed> flatten(const File& file) {
     const std::size_t count = file.model.nodes.size();
     std::vector<bool> seen(count, false);
     std::vector<Placed> placed, stack;
-    const auto push = [&](const std::vector<int>& nodes, const glm::mat4& parent, int depth) {
+    const auto push = [&](const std::vector<int>& nodes, const glm::mat4& parent, int depth, const SourceLoc& where) {
         for (auto node = nodes.rbegin(); node != nodes.rend(); ++node) {
             if (*node < 0 || std::size_t(*node) >= count)
-                throw Error(SourceLoc{file.name}, fmt::format("nodes[{}] is named, the file has {}", *node, count));
+                throw Error(where, fmt::format("nodes[{}] is named, the file has {}", *node, count),
+                            "nodes count from 0");
             stack.push_back({std::size_t(*node), depth, parent});
         }
     };
-    push(rootNodes(file), glm::mat4(1), 1);
+    push(rootNodes(file), glm::mat4(1), 1, file.where("scenes", std::size_t(std::max(file.model.defaultScene, 0))));
     while (!stack.empty()) {
         Placed next = stack.back();
         stack.pop_back();
         if (seen[next.node])
-            file.fail("nodes", next.node, "has two parents or is its own ancestor", "a node may have one parent");
+            file.fail("nodes", next.node, "it has two parents or is its own ancestor", "a node may have one parent");
         seen[next.node] = true;
         if (next.depth > file.options.limits.maxNodeDepth)
-            file.fail("nodes", next.node, fmt::format("is nested deeper than {}", file.options.limits.maxNodeDepth));
+            file.fail("nodes", next.node, fmt::format("it is nested deeper than {}", file.options.limits.maxNodeDepth));
         next.world = next.world * localMatrix(file, next.node);
         if (!allFinite(next.world)) file.fail("nodes", next.node, "its place in the world is not finite");
-        push(file.model.nodes[next.node].children, next.world, next.depth + 1);
+        push(file.model.nodes[next.node].children, next.world, next.depth + 1, file.where("nodes", next.node));
         placed.push_back(next);
     }
     return placed;
@@ -242,7 +244,8 @@ private:
             !(to.outerAngle <= glm::half_pi<float>() + 1e-4f) ||
             (to.type == LightType::Spot && !(to.innerAngle < to.outerAngle)))
             throw Error(SourceLoc{file_.name},
-                        fmt::format("lights[{}]: intensity, range or cone angles are out of range", index));
+                        fmt::format("lights[{}]: intensity, range or cone angles are out of range", index),
+                        "KHR_lights_punctual: intensity and range from 0, cone angles 0 <= inner < outer <= pi/2");
         to.position = glm::vec3(node.world[3]);
         const glm::vec3 direction = -glm::vec3(node.world[2]);
         to.direction = glm::length(direction) > 0 ? glm::normalize(direction) : glm::vec3(0, 0, -1);

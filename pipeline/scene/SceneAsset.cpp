@@ -74,7 +74,8 @@ private:
         const Value* value = reader.take("gltf");
         if (!value) return;
         if (!value->isString()) {
-            problems_.error(value->where(), fmt::format("'gltf' must be a string, found {}", value->typeName()));
+            problems_.error(value->where(), fmt::format("'gltf' must be a string, found {}", value->typeName()),
+                            "name a .gltf or .glb file");
             return;
         }
         const std::optional<fs::path> path = findGltf(*value, value->string());
@@ -122,7 +123,8 @@ private:
     int findMaterial(const Value* name) {
         if (!name) return defaultMaterial();
         if (!name->isString()) {
-            problems_.error(name->where(), fmt::format("'material' must be a string, found {}", name->typeName()));
+            problems_.error(name->where(), fmt::format("'material' must be a string, found {}", name->typeName()),
+                            "name one of \"materials\"");
             return 0;
         }
         if (const auto own = ownMaterials_.find(name->string()); own != ownMaterials_.end()) return own->second;
@@ -146,7 +148,8 @@ private:
 
     void readObjects(const Value& list, const std::vector<glm::mat4>& parents, int depth) {
         if (depth > kMaxGroupDepth) {
-            problems_.error(list.where(), fmt::format("'objects' are nested deeper than {}", kMaxGroupDepth));
+            problems_.error(list.where(), fmt::format("'objects' are nested deeper than {}", kMaxGroupDepth),
+                            "flatten the groups");
             return;
         }
         readList(&list, "'objects'",
@@ -183,7 +186,8 @@ private:
         }
         for (int i = 0; i < 3 && scale; ++i)
             if (!(std::abs(placement.scale[i]) >= 1e-6f && std::abs(placement.scale[i]) <= 1e6f)) {
-                problems_.error(scale->where(), "'scale' may not be 0 or beyond a million");
+                problems_.error(scale->where(), "'scale' may not be 0 or beyond a million",
+                                "leave thickness to \"size\", or write a small number");
                 break;
             }
         return placement;
@@ -196,7 +200,8 @@ private:
         if (const Value* cells = reader.take("array")) {
             readStruct(*cells, "'array' of " + what, array);
             if (array.count != glm::floor(array.count))
-                problems_.error(cells->where(), fmt::format("'count' in 'array' of {} has a fraction", what));
+                problems_.error(cells->where(), fmt::format("'count' in 'array' of {} has a fraction", what),
+                                "write whole numbers: \"count\": [5, 1, 1]");
         }
         std::vector<glm::mat4> instances;
         const Value* list = reader.take("instances");
@@ -209,7 +214,8 @@ private:
         const double total = double(parents.size()) * count.x * count.y * count.z * double(instances.size());
         if (total > double(options_.limits.maxInstances)) {
             problems_.error(value.where(),
-                            fmt::format("{} stands {} times, more than {}", what, total, options_.limits.maxInstances));
+                            fmt::format("{} stands {} times, more than {}", what, total, options_.limits.maxInstances),
+                            "lower \"count\" of its arrays, or its \"instances\"");
             return {};
         }
         std::vector<glm::mat4> worlds;
@@ -268,14 +274,15 @@ private:
             else
                 profile.push_back({float(item.items()[0].number()), float(item.items()[1].number())});
         });
-        if (profile.size() < 2)
+        if (!list || (list->isArray() && list->items().size() < 2))
             problems_.error((list ? *list : object).where(), what + " needs a 'profile' of two points or more", kHelp);
     }
 
     void addInstances(const PrimitiveFields& primitive, int material, const std::string& name,
                       const std::vector<glm::mat4>& worlds) {
         if (scene_.instances.size() + worlds.size() > options_.limits.maxInstances) {
-            problems_.error({}, fmt::format("the scene has more than {} instances", options_.limits.maxInstances));
+            problems_.error({}, fmt::format("the scene has more than {} instances", options_.limits.maxInstances),
+                            "lower \"count\" of its arrays");
             return;
         }
         const int mesh = findMesh(primitive);
@@ -306,7 +313,8 @@ private:
             readStruct(value, what, fields);
             if (fields.far > 0 && fields.far <= fields.near)
                 problems_.error(value.where(),
-                                fmt::format("'far' {} of {} is not beyond 'near' {}", fields.far, what, fields.near));
+                                fmt::format("'far' {} of {} is not beyond 'near' {}", fields.far, what, fields.near),
+                                "exchange the two, or leave them out: they follow from the scene");
             cameras.push_back(fields.make());
         };
         if (const Value* one = reader.take("camera")) add(*one, "the camera");
@@ -320,7 +328,8 @@ private:
         readStruct(value, what, fields);
         const Light light = fields.make();
         if (light.type == LightType::Spot && light.innerAngle >= light.outerAngle)
-            problems_.error(value.where(), fmt::format("'innerAngle' of {} is not below 'outerAngle'", what));
+            problems_.error(value.where(), fmt::format("'innerAngle' of {} is not below 'outerAngle'", what),
+                            "the light is full within the inner and dark beyond the outer angle");
         scene_.lights.push_back(light);
     }
 
@@ -329,7 +338,7 @@ private:
         readStruct(value, "the fog", fields);
         scene_.fog = fields.make();
         if (scene_.fog.type == FogType::Linear && scene_.fog.end <= scene_.fog.start)
-            problems_.error(value.where(), "'end' of the fog is not beyond 'start'");
+            problems_.error(value.where(), "'end' of the fog is not beyond 'start'", "exchange the two");
     }
 
     void readExposure(const Value* value) {
@@ -337,7 +346,8 @@ private:
         if (value->isNumber() && std::abs(value->number()) <= 32)
             scene_.exposureEv = float(value->number());
         else
-            problems_.error(value->where(), "'exposure' must be a number of stops from -32 to 32, or \"auto\"");
+            problems_.error(value->where(), "'exposure' must be a number of stops from -32 to 32, or 'auto'",
+                            "write \"exposure\": 0 or \"exposure\": \"auto\"");
     }
 
     fs::path folder_;

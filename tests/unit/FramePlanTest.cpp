@@ -36,9 +36,10 @@ TEST_F(PlanRules, ReadBeforeTheFirstWriteNamesBothStages) {
     const Problem problem = refusal();
     EXPECT_EQ(problem.message, "'Lighting' reads 'ao' before 'Ssao' writes it");
     EXPECT_EQ(problem.where.line, 34);
-    ASSERT_EQ(problem.remarks.size(), 1u);
+    ASSERT_EQ(problem.remarks.size(), 2u);
     EXPECT_EQ(problem.remarks[0].where.line, 102);
     EXPECT_EQ(problem.remarks[0].message, "'Ssao' is stage 2 of 'F'");
+    EXPECT_EQ(problem.remarks[1].message, "'Lighting' is stage 1 of 'F'");
     EXPECT_EQ(problem.help, "place 'Ssao' before 'Lighting' in the document (\"before\": \"Lighting\" in an insert)");
 }
 

@@ -236,7 +236,7 @@ TEST_F(FrameProgramTest, AllMistakesComeInOneRun) {
     std::vector<std::string> messages;
     for (const Problem& problem : problems) messages.push_back(problem.message);
     EXPECT_THAT(messages, Contains(HasSubstr("strength")));
-    EXPECT_THAT(messages, Contains(HasSubstr("\"reads\" of stage 'B' names 'nothing'")));
+    EXPECT_THAT(messages, Contains(HasSubstr("'reads' of stage 'B' names 'nothing'")));
     EXPECT_THAT(messages, Contains("effect 'plain' of stage 'C' has no compute program"));
 }
 
@@ -280,7 +280,7 @@ TEST_F(FrameProgramTest, ReadsListedByHandAreChecked) {
     fresh.fragment("reader", "uniform sampler2D a;", "result = vec4(0.5);");
     const std::vector<Problem> problems = fresh.problemsOf(listing(R"(["a"])"));
     ASSERT_FALSE(problems.empty());
-    EXPECT_EQ(problems[0].message, "stage 'Show' lists 'a' in \"reads\", and its shaders do not read it");
+    EXPECT_EQ(problems[0].message, "stage 'Show' lists 'a' in 'reads', and its shaders do not read it");
 }
 
 }  // namespace

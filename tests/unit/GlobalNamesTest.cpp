@@ -202,7 +202,7 @@ TEST(GlobalNames, BadPinsAreRefused) {
         {"cc_a", 64, "binding 64 of 'cc_a' is too large"},
         {"cc_gbuffer_albedoMap", 12, "'cc_gbuffer_albedoMap' has the number 6 in set 0 and cannot be pinned to 12"},
         {"cc_shadowMap", 12, "'cc_shadowMap' has the number 3 in set 0 and cannot be pinned to 12"},
-        {"cc_environment", 4, "target 'cc_environment' is the name of something that is not a target"},
+        {"cc_environment", 4, "target 'cc_environment' has a name that is built in for something else"},
     };
     for (const Case& bad : cases) {
         GlobalNames names;

@@ -81,7 +81,7 @@ TEST(GltfHostile, PositionsMustBeFinite) {
 TEST(GltfHostile, NodeCyclesAndDepthAreRefused) {
     Document document;
     document.nodes = R"({"children": [1]}, {"children": [0], "mesh": 0})";
-    EXPECT_TRUE(contains(document.error(), "nodes[0]: has two parents or is its own ancestor")) << document.error();
+    EXPECT_TRUE(contains(document.error(), "nodes[0]: it has two parents or is its own ancestor")) << document.error();
     document.nodes = R"({"children": [5]})";
     EXPECT_TRUE(contains(document.error(), "nodes[5]")) << document.error();
     document.nodes.clear();

@@ -102,8 +102,9 @@ TEST(PipelineError, Like) {
     expectOne(problemsOf(document(R"( }, "b": { "like": "uot")", "")),
               "target 'b' is like 'uot', which is no target | did you mean 'out'?");
     expectOne(problemsOf(document(R"( }, "b": { "like": "c" }, "c": { "like": "b")", "")),
-              "targets are like each other in a circle: b → c → b");
-    expectOne(problemsOf(document(R"( }, "b": { "like": "b")", "")), "targets are like each other in a circle: b → b");
+              "targets are like each other in a circle: 'b' → 'c' → 'b'");
+    expectOne(problemsOf(document(R"( }, "b": { "like": "b")", "")),
+              "targets are like each other in a circle: 'b' → 'b'");
 }
 
 TEST(PipelineError, Names) {
@@ -132,7 +133,8 @@ TEST(PipelineError, Edits) {
     };
     expectOne(edit(R"({ "before": "FullscreenStage" })"), "an edit says nothing to do");
     expectOne(edit(R"({ "inser": { "stage": "S" } })"), "an edit says nothing to do | did you mean 'insert'?");
-    expectOne(edit(R"({ "set": "FullscreenStage", "remove": "FullscreenStage" })"), "an edit has 2 verbs: set, remove");
+    expectOne(edit(R"({ "set": "FullscreenStage", "remove": "FullscreenStage" })"),
+              "an edit has 2 verbs: 'set', 'remove'");
     expectOne(edit(R"({ "insert": { "stage": "S" }, "before": "FullscreenStage", "after": "FullscreenStage" })"),
               "an insert has both 'before' and 'after'");
     expectOne(edit(R"({ "insert": { "stage": "S" }, "before": "FulscreenStage" })"),
@@ -184,7 +186,7 @@ TEST(PipelineError, OptionValues) {
     EXPECT_EQ(with("level", "0.25"), "");
     expectOne(with("onn", "false"), "no option named 'onn' | did you mean 'on'? options: on, level, mode");
     expectOne(with("on", "1"), "option 'on' must be true or false, found 1");
-    expectOne(with("on", "yes"), "option 'on' must be true or false, found \"yes\"");
+    expectOne(with("on", "yes"), "option 'on' must be true or false, found 'yes'");
     expectOne(with("level", "9"), "option 'level' is 9, out of range | write a number from 0 to 8");
     expectOne(with("level", "much"), "option 'level' must be a number");
     expectOne(with("mode", "fats"), "option 'mode' has no choice 'fats' | did you mean 'fast'? choices: slow, fast");

@@ -272,7 +272,7 @@ TEST(ShaderCompiler, VaryingsOfDifferentTypes) {
     EXPECT_TRUE(problem.message.starts_with("GLSL: the stages do not fit together")) << problem.message;
     EXPECT_NE(problem.message.find("v_uv"), std::string::npos);
     EXPECT_EQ(problem.where.file, bench.file());
-    EXPECT_EQ(problem.where.line, 8);
+    EXPECT_EQ(problem.where.line, 12);
 }
 
 TEST(ShaderCompiler, ExplicitNumbersMustAgree) {
