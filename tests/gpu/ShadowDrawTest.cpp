@@ -147,6 +147,36 @@ TEST_F(ShadowDraw, WallsAndFloorsDoNotShadowThemselves) {
     }
 }
 
+TEST_F(ShadowDraw, AFloorUnderALowSunHasNoSpeckles) {
+    for (const float height : {-0.15f, -0.5f, -1.0f}) {
+        Scene scene = darkScene();
+        addFloor(scene, 10);
+        addBlock(scene, {4.5f, 1, 0}, {0.5f, 2, 0.5f});  // gives the light's volume a depth; its shadow falls outside
+        scene.lights = {directional({0.9f, height, 0.3f}, 1)};
+        const View view = viewOf(topCamera(7, {-1, 0, 0}), 160, 160);
+        renderer_->setScene(scene);
+        load("deferred");
+        const Image open = radiance(view);
+        scene.lights[0].castsShadow = true;
+        renderer_->setScene(scene);
+        EXPECT_EQ(radiance(view), open) << height;
+    }
+}
+
+TEST_F(ShadowDraw, AShadowBeginsAtTheFootOfWhatCastsIt) {
+    Scene scene = darkScene();
+    addFloor(scene, 12);
+    addBlock(scene, {0, 0.5f, 0}, {1, 1, 1});
+    scene.lights = {sun()};
+    const View view = viewOf(topCamera(3, {1, 0, 0}), 300, 300);
+    renderer_->setScene(scene);
+    load("deferred");
+    const Image image = radiance(view);
+    // Biases let light in at the foot: 1.5 texels along the normal, and 0.0008 of the depth range.
+    for (float x = 0.54f; x < 1.45f; x += 0.02f) EXPECT_EQ(at(image, view, {x, 0, 0}).x, 0) << x;
+    EXPECT_GT(at(image, view, {1.6f, 0, 0}).x, 0.2f);
+}
+
 TEST_F(ShadowDraw, TheFilterIsAsWideAsItsName) {
     Scene scene = hoveringBox();
     scene.lights = {sun()};
