@@ -53,7 +53,7 @@ void Renderer::load(PipelineRequest request, const RunInfo& run) {
         request.defaultPriority = [this](const std::string& stageClass) { return registry_.priorityOf(stageClass); };
     }
     const AssetRoots roots = options_.roots.forDocument(request.nameOrPath);
-    plugins_.loadNeeded(roots, request.nameOrPath, registry_);
+    plugins_.loadNeeded(roots, request, registry_);
     PipelineDesc desc = loadPipeline(roots, request);
     pipeline_.reset();
     effects_.setRoots(roots);

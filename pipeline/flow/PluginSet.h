@@ -8,6 +8,7 @@
 
 #include "core/Files.h"
 #include "flow/Plugin.h"
+#include "plan/PipelineAsset.h"
 
 namespace crevice {
 
@@ -19,7 +20,7 @@ public:
     void allowFolder(const std::filesystem::path& folder);
     /// Makes sure of everything that a document and its ancestors list in "plugins". Throws Error that says which flag
     /// to add.
-    void loadNeeded(const AssetRoots& roots, const std::string& nameOrPath, StageRegistry& registry);
+    void loadNeeded(const AssetRoots& roots, const PipelineRequest& request, StageRegistry& registry);
 
     const std::vector<std::filesystem::path>& files() const { return files_; }
 

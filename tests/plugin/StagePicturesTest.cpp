@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "PackageTools.h"
+#include "core/Files.h"
 
 namespace crevice::package {
 namespace {
@@ -189,6 +190,47 @@ TEST(Tutorial, HeightsAreThoseOfTheGeometry) {
     }
     EXPECT_GT(levels.size(), 100u);
     EXPECT_GT(sky, 0);
+}
+
+TEST(Tutorial, ShowsTheErrorThatIsPrinted) {
+    std::string text = readText(work() / "stages/ssao-vignette.pipeline.json");
+    const std::string right = "\"strength\": 0.4";
+    ASSERT_NE(text.find(right), std::string::npos);
+    text.replace(text.find(right), right.size(), "\"strength\": 4");
+    std::filesystem::create_directories(work() / "mistake");
+    writeFileAtomically(work() / "mistake/ssao-vignette.pipeline.json", text);
+    std::filesystem::copy_file(work() / "stages/vignette.effect", work() / "mistake/vignette.effect",
+                               std::filesystem::copy_options::overwrite_existing);
+    const Outcome outcome = crevice("mistake", "validate ssao-vignette.pipeline.json");
+    EXPECT_EQ(outcome.code, 2);
+    for (const char* line : {"ssao-vignette.pipeline.json:8:109: error: property 'strength' is 4, outside its range",
+                             "help: give 0 to 1"}) {
+        EXPECT_NE(outcome.text.find(line), std::string::npos) << outcome.text;
+        EXPECT_NE(readText(std::filesystem::path(CREVICE_TEST_SOURCE_DIR) / "docs/writing-a-stage.md").find(line),
+                  std::string::npos)
+            << "the tutorial shows: " << line;
+    }
+}
+
+TEST(ComputeStage, EveryPixelIsTheMeanOfNine) {
+    const Image before = picture("compute/before.png"), after = picture("compute/averaged.png");
+    ASSERT_EQ(after.width, 333u);
+    ASSERT_EQ(after.height, 177u);
+    bool changed = false;
+    for (int y = 0; y < 177; ++y) {
+        for (int x = 0; x < 333; ++x) {
+            for (int c = 0; c < 3; ++c) {
+                int sum = 0;
+                for (int i = 0; i < 9; ++i) {
+                    sum += byteAt(before, std::uint32_t(std::clamp(x + i % 3 - 1, 0, 332)),
+                                  std::uint32_t(std::clamp(y + i / 3 - 1, 0, 176)), c);
+                }
+                ASSERT_NEAR(byteAt(after, std::uint32_t(x), std::uint32_t(y), c), sum / 9.0, 0.6) << x << "," << y;
+                changed = changed || sum != 9 * byteAt(before, std::uint32_t(x), std::uint32_t(y), c);
+            }
+        }
+    }
+    EXPECT_TRUE(changed);
 }
 
 TEST(Library, RendersSeveralCamerasAndSizes) {

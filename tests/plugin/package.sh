@@ -5,7 +5,7 @@ set -euo pipefail
 build=$1 source=$2 work=$3 cxx=$4 type=$5
 unset CREVICE_DATA_DIR LD_LIBRARY_PATH
 rm -rf "$work"
-mkdir -p "$work"/{outline,library,stages,refused}
+mkdir -p "$work"/{outline,library,stages,compute,refused}
 
 cmake --install "$build" --prefix "$work/installed" >"$work/install.log"
 mv "$work/installed" "$work/crevice"
@@ -53,6 +53,7 @@ run outline build_outline
 run refused build_refused
 run library run_document library.md library
 run stages run_document writing-a-stage.md stages
+run compute run_document stages/ComputeStage.md compute
 failed=0
 for job in "${!jobs_of[@]}"; do
   if ! wait "$job"; then

@@ -69,7 +69,7 @@ PipelineChoice::PipelineChoice(const std::string& nameOrPath, const PipelineOpti
         request_.sets.push_back({path, value});
     }
     request_.defaultPriority = [this](const std::string& name) { return classes_.registry().priorityOf(name); };
-    classes_.loadNeeded(roots_, nameOrPath);
+    classes_.loadNeeded(roots_, request_);
     desc_ = loadPipeline(roots_, request_);
     if (!options.seed.empty()) setSeed(options.seed);
 }

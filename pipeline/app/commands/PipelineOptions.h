@@ -40,8 +40,8 @@ public:
     /// Builtin classes and the --plugin files. Throws Error.
     explicit StageClasses(const PluginOptions& options);
     /// Loads what the documents name in "plugins" from --plugin-path. Throws Error.
-    void loadNeeded(const AssetRoots& roots, const std::string& pipeline) {
-        plugins_.loadNeeded(roots, pipeline, registry_);
+    void loadNeeded(const AssetRoots& roots, const PipelineRequest& request) {
+        plugins_.loadNeeded(roots, request, registry_);
     }
 
     const StageRegistry& registry() const { return registry_; }
