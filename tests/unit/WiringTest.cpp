@@ -82,9 +82,7 @@ TEST_F(Wiring, ASamplerBoundToNothingIsAnErrorInTheEffect) {
     bench_.fragment("show", "uniform sampler2D nobody;", "result = texture(nobody, v_uv);");
     const Problem found =
         problem(R"({ "stage": "FullscreenStage", "name": "S", "effect": "show", "writes": ["out"] })");
-    EXPECT_EQ(found.message,
-              "'nobody' in effect 'show' is bound to nothing in stage 'S': no target, \"reads\" entry or texture "
-              "property has this name");
+    EXPECT_THAT(found.message, HasSubstr("'nobody' in effect 'show' is bound to nothing in stage 'S'"));
     EXPECT_THAT(found.where.file, HasSubstr("show.effect"));
     EXPECT_THAT(found.help, HasSubstr("\"reads\": { \"nobody\": \"TARGET\" }"));
     ASSERT_EQ(found.remarks.size(), 1u);
@@ -95,7 +93,7 @@ TEST_F(Wiring, AReadOfASamplerThatIsNotThereNamesTheNearest) {
     bench_.fragment("show", "uniform sampler2D inputMap;", "result = texture(inputMap, v_uv);");
     const Problem found = problem(R"({ "stage": "FullscreenStage", "name": "S", "effect": "show",
         "reads": { "inputMap": "a", "inputMop": "b" }, "writes": ["out"] })");
-    EXPECT_EQ(found.message, "\"reads\" of stage 'S' names 'inputMop', and effect 'show' has no such sampler");
+    EXPECT_THAT(found.message, HasSubstr("of stage 'S' names 'inputMop', and effect 'show' has no such sampler"));
     EXPECT_THAT(found.help, HasSubstr("did you mean 'inputMap'"));
 }
 
