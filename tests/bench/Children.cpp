@@ -1,0 +1,37 @@
+// posix_spawn and wait4: the kernel counts a child's processor time for its parent.
+#include "Children.h"
+
+#include <sys/resource.h>
+#include <sys/wait.h>
+
+#include <spawn.h>
+#include <unistd.h>
+
+#include <fmt/format.h>
+
+#include "core/Error.h"
+
+namespace crevice::bench {
+namespace {
+
+double milliseconds(const timeval& time) {
+    return static_cast<double>(time.tv_sec) * 1e3 + static_cast<double>(time.tv_usec) * 1e-3;
+}
+
+}  // namespace
+
+double childMilliseconds(const std::vector<std::string>& arguments) {
+    std::vector<char*> argv;
+    for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
+    argv.push_back(nullptr);
+    pid_t child = 0;
+    if (posix_spawn(&child, argv[0], nullptr, nullptr, argv.data(), environ) != 0)
+        throw Error(fmt::format("cannot start '{}'", arguments[0]), "build the target crevice_program");
+    int status = 0;
+    rusage usage{};
+    if (wait4(child, &status, 0, &usage) != child || !WIFEXITED(status) || WEXITSTATUS(status) != 0)
+        throw Error(fmt::format("'{}' failed", arguments[0]), "its message is above");
+    return milliseconds(usage.ru_utime) + milliseconds(usage.ru_stime);
+}
+
+}  // namespace crevice::bench
