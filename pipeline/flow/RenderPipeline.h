@@ -48,6 +48,8 @@ public:
     const FrameProgram& program() const { return program_; }
     const SceneGpu* scene() const { return scene_.get(); }
     std::uint64_t targetBytes() const { return targets_ ? targets_->bytes() : 0; }
+    /// Vulkan pipelines that the driver has made so far: rendering and resizing make none.
+    std::size_t pipelinesMade() const { return pipelines_.createdCount(); }
     /// Per stage, in order; their sum against frameMilliseconds() shows what transitions and read-back cost.
     std::vector<StageTime> stageTimes() const;
     double frameMilliseconds() const;

@@ -33,11 +33,14 @@ TEST_F(PipelineSwitch, ThereAndBackInSizeIsIdentical) {
     load("ssao-deferred");
     const Image first = renderer_->render(sized(640, 360));
     const LiveObjects live = renderer_->device().liveObjects();
+    const std::size_t pipelines = renderer_->pipeline().pipelinesMade();
+    EXPECT_GT(pipelines, 8u);
     const Image other = renderer_->render(sized(333, 777));
     EXPECT_EQ(other.width, 333u);
     EXPECT_EQ(other.height, 777u);
     EXPECT_EQ(renderer_->render(sized(640, 360)), first);
     EXPECT_EQ(renderer_->device().liveObjects().counts, live.counts);
+    EXPECT_EQ(renderer_->pipeline().pipelinesMade(), pipelines);
 }
 
 TEST_F(PipelineSwitch, AFrameOfTheSameSizeMakesNothing) {
