@@ -80,7 +80,7 @@ Camera findCamera(const std::string& wanted, const Scene& scene) {
 
 }  // namespace
 
-void addViewOptions(CLI::App& command, ViewOptions& options) {
+void addViewOptions(CLI::App& command, ViewOptions& options, bool withBackground) {
     const auto add = [&](const char* name, std::string& value, const char* type, const char* help) {
         command.add_option(name, value, help)->type_name(type)->group("View");
     };
@@ -94,6 +94,7 @@ void addViewOptions(CLI::App& command, ViewOptions& options) {
     add("--ortho", options.ortho, "HEIGHT", "Parallel projection of that many world units");
     add("--near", options.near, "DIST", "Nearest distance seen; default from the scene");
     add("--far", options.far, "DIST", "Farthest distance seen; default from the scene");
+    if (!withBackground) return;
     add("--background", options.background, "COLOR",
         "Behind everything: transparent, #rrggbb, r,g,b or a name; default black");
 }
@@ -148,6 +149,18 @@ std::optional<Camera> chooseCamera(const ViewChoice& view, const Scene& scene) {
                     "choose --near and --far so that near < far");
     }
     return camera;
+}
+
+Camera resolveCamera(const ViewChoice& view, const Scene& scene) {
+    const Aabb bounds = scene.bounds();
+    std::optional<Camera> camera = chooseCamera(view, scene);
+    if (!camera && !scene.cameras.empty()) camera = scene.cameras.front();
+    if (!camera) {
+        const float aspect = static_cast<float>(view.size.x) / static_cast<float>(view.size.y);
+        camera = frameBounds(bounds, kDefaultFovY, aspect);
+    }
+    fitNearFar(*camera, bounds);
+    return *camera;
 }
 
 }  // namespace crevice

@@ -18,7 +18,8 @@ namespace crevice {
 struct ViewOptions {
     std::string size, camera, eye, target, up, fov, ortho, near, far, background;
 };
-void addViewOptions(CLI::App& command, ViewOptions& options);
+/// Without --background where no picture is made.
+void addViewOptions(CLI::App& command, ViewOptions& options, bool withBackground = true);
 
 /// The checked numbers of ViewOptions.
 struct ViewChoice {
@@ -33,5 +34,9 @@ ViewChoice readView(const ViewOptions& options);
 
 /// The camera for a scene; nothing when the options leave it open. Throws Error: no such camera, near behind far.
 std::optional<Camera> chooseCamera(const ViewChoice& view, const Scene& scene);
+
+/// The camera that Renderer takes for the same choice: the scene's first or one that frames it where the options leave
+/// it open, with near and far filled in. Throws Error.
+Camera resolveCamera(const ViewChoice& view, const Scene& scene);
 
 }  // namespace crevice

@@ -1,0 +1,49 @@
+// Two passes in double: sums, then moments about the means.
+#include "truth/Metrics.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <vector>
+
+namespace crevice {
+
+MapMetrics measureMap(std::span<const float> map, std::span<const float> truth,
+                      std::span<const std::uint8_t> isCounted) {
+    assert(map.size() == truth.size() && (isCounted.empty() || isCounted.size() == map.size()));
+    std::vector<double> a, t, errors;
+    for (std::size_t i = 0; i < map.size(); ++i) {
+        if (!isCounted.empty() && !isCounted[i]) continue;
+        a.push_back(std::isfinite(map[i]) ? static_cast<double>(map[i]) : 0.0);
+        t.push_back(static_cast<double>(truth[i]));
+    }
+    MapMetrics result;
+    result.count = a.size();
+    if (a.empty()) return result;
+
+    const auto n = static_cast<double>(a.size());
+    double meanA = 0, meanT = 0;
+    for (std::size_t i = 0; i < a.size(); ++i) meanA += a[i] / n, meanT += t[i] / n;
+    double mse = 0, whiteMse = 0, varianceA = 0, varianceT = 0, covariance = 0;
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        const double e = a[i] - t[i];
+        errors.push_back(std::abs(e));
+        result.mae += std::abs(e) / n;
+        mse += e * e / n;
+        whiteMse += (1 - t[i]) * (1 - t[i]) / n;
+        varianceA += (a[i] - meanA) * (a[i] - meanA) / n;
+        varianceT += (t[i] - meanT) * (t[i] - meanT) / n;
+        covariance += (a[i] - meanA) * (t[i] - meanT) / n;
+    }
+    result.rmse = std::sqrt(mse);
+    result.bias = meanA - meanT;
+    if (varianceA > 0 && varianceT > 0) result.correlation = covariance / std::sqrt(varianceA * varianceT);
+    if (varianceT > 0) result.skill = 1 - mse / varianceT;
+    if (whiteMse > 0) result.ofWhite = result.rmse / std::sqrt(whiteMse);
+    const auto rank = static_cast<std::ptrdiff_t>(std::ceil(0.95 * n)) - 1;
+    std::nth_element(errors.begin(), errors.begin() + rank, errors.end());
+    result.p95 = errors[static_cast<std::size_t>(rank)];
+    return result;
+}
+
+}  // namespace crevice

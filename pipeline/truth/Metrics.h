@@ -1,0 +1,26 @@
+// How far a map is from the truth, in numbers that others report too.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+namespace crevice {
+
+/// With e = a - t over the n counted values, means written as ⟨ ⟩:
+struct MapMetrics {
+    std::size_t count = 0;
+    double rmse = 0;         ///< √⟨e²⟩
+    double mae = 0;          ///< ⟨|e|⟩
+    double bias = 0;         ///< ⟨e⟩; above 0: too bright
+    double p95 = 0;          ///< The smallest |e| that 95 % of the values do not exceed.
+    double correlation = 0;  ///< Pearson: ⟨(a - ⟨a⟩)(t - ⟨t⟩)⟩ / (σa σt); 0 when either is constant
+    double skill = 0;    ///< 1 - ⟨e²⟩ / σt²: 0 = as good as the truth's mean everywhere; 0 when t is constant
+    double ofWhite = 0;  ///< RMSE over that of an all-white map, √⟨(1 - t)²⟩; 0 when the truth is all white
+};
+
+/// `isCounted` selects values (not 0); empty = all. All spans have one length; what is not finite in `map` counts as 0.
+MapMetrics measureMap(std::span<const float> map, std::span<const float> truth,
+                      std::span<const std::uint8_t> isCounted = {});
+
+}  // namespace crevice

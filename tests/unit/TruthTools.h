@@ -1,0 +1,101 @@
+// Scenes of exact ambient occlusion: large planes and spheres, points on them, and openness with its own noise.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include <glm/gtc/constants.hpp>
+#include <glm/gtc/matrix_transform.hpp>
+
+#include "scene/Primitives.h"
+#include "truth/AmbientReference.h"
+
+namespace crevice::test {
+
+inline Scene whiteScene() {
+    Scene scene;
+    scene.materials.emplace_back();
+    return scene;
+}
+
+inline void addMesh(Scene& scene, Mesh mesh, const glm::mat4& world = glm::mat4(1), int material = 0) {
+    updateBounds(mesh);
+    scene.meshes.push_back(std::move(mesh));
+    Instance instance;
+    instance.mesh = static_cast<int>(scene.meshes.size()) - 1;
+    instance.material = material;
+    instance.world = world;
+    instance.flipped = glm::determinant(glm::mat3(world)) < 0;
+    scene.instances.push_back(instance);
+}
+
+/// Corners counter-clockwise seen from the front.
+inline void addQuad(Scene& scene, const glm::vec3& a, const glm::vec3& b, const glm::vec3& c, const glm::vec3& d,
+                    int material = 0) {
+    Mesh mesh;
+    const glm::vec3 normal = glm::normalize(glm::cross(b - a, c - a));
+    const glm::vec2 uvs[] = {{0, 1}, {1, 1}, {1, 0}, {0, 0}};
+    const glm::vec3 corners[] = {a, b, c, d};
+    for (int i = 0; i < 4; ++i) mesh.vertices.push_back({.position = corners[i], .normal = normal, .uv0 = uvs[i]});
+    mesh.indices = {0, 1, 2, 0, 2, 3};
+    addMesh(scene, std::move(mesh), glm::mat4(1), material);
+}
+
+/// Floor y = 0 over [-size, size]².
+inline void addFloor(Scene& scene, float size) {
+    addQuad(scene, {-size, 0, size}, {size, 0, size}, {size, 0, -size}, {-size, 0, -size});
+}
+/// Wall in the plane x = `x`, from the floor up to `height`; which way it faces does not matter.
+inline void addWallX(Scene& scene, float x, float height, float halfLength) {
+    addQuad(scene, {x, 0, -halfLength}, {x, 0, halfLength}, {x, height, halfLength}, {x, height, -halfLength});
+}
+inline void addWallZ(Scene& scene, float z, float height, float halfLength) {
+    addQuad(scene, {-halfLength, 0, z}, {halfLength, 0, z}, {halfLength, height, z}, {-halfLength, height, z});
+}
+
+inline SurfaceHit pointAt(const glm::vec3& position, const glm::vec3& normal) {
+    SurfaceHit point;
+    point.position = position;
+    point.normal = point.geometricNormal = glm::normalize(normal);
+    return point;
+}
+
+struct Estimate {
+    double mean = 0, sigma = 0;  ///< Of the mean.
+};
+
+/// Mean of 32 independent estimates of 512 rays each, and its standard error from their spread.
+inline Estimate estimateOpenness(const Scene& scene, const SurfaceHit& point, float radius,
+                                 Falloff falloff = Falloff::Hard) {
+    constexpr std::uint32_t kSets = 16;
+    const RayScene rays(scene);
+    const AmbientSettings settings{.radius = radius, .falloff = falloff, .samples = 1024};
+    std::vector<double> values;
+    for (std::uint32_t seed = 0; seed < kSets; ++seed) {
+        const Openness openness = traceOpenness(rays, point, settings, seed);
+        values.push_back(openness.first);
+        values.push_back(openness.second);
+    }
+    Estimate result;
+    const auto n = static_cast<double>(values.size());
+    for (const double value : values) result.mean += value / n;
+    for (const double value : values) result.sigma += (value - result.mean) * (value - result.mean);
+    result.sigma = std::sqrt(result.sigma / (n * (n - 1)));
+    return result;
+}
+
+/// Within three standard errors, and what the finite stand-in of the scene is off (`standIn`).
+inline void expectOpenness(const Estimate& estimate, double exact, double standIn) {
+    EXPECT_LE(std::abs(estimate.mean - exact), 3 * estimate.sigma + standIn)
+        << "traced " << estimate.mean << " ± " << estimate.sigma << ", exact " << exact;
+    EXPECT_LT(estimate.sigma, 2e-3) << "the noise hides errors";
+}
+
+/// Area of a unit disc's segment beyond the chord at distance k from the centre.
+inline double segmentArea(double k) { return k < 1 ? std::acos(k) - k * std::sqrt(1 - k * k) : 0; }
+
+}  // namespace crevice::test
