@@ -97,6 +97,23 @@ private:
         return true;
     }
 
+    /// YAML indents by spaces: how wide a tab is, nobody can know.
+    bool checkIndentation(const EffectProgram& body) {
+        std::size_t begin = 0;
+        for (int line = body.firstLine; begin < body.text.size(); ++line) {
+            const std::size_t end = std::min(body.text.find('\n', begin), body.text.size());
+            const std::size_t word = body.text.find_first_not_of(" \t\r", begin);
+            const std::size_t tab = body.text.find('\t', begin);
+            if (tab < word && word < end && body.text[word] != '#') {
+                problems_.error({effect_.path, line, static_cast<int>(tab - begin) + 1, 1},
+                                "a tab stands in the indentation", "indent by spaces");
+                return false;
+            }
+            begin = end + 1;
+        }
+        return true;
+    }
+
     void readEffect(std::size_t start) {
         const SourceLoc where = placeOf(start, 8);
         EffectProgram body;
@@ -109,6 +126,7 @@ private:
         hasEffect_ = true;
         effect_.where = where;
         if (reading_ == EffectReading::Tolerant) std::replace(body.text.begin(), body.text.end(), '\t', ' ');
+        if (!checkIndentation(body)) return;
         try {
             readEffectHeader(parseYaml(body.text, effect_.path, body.firstLine), effect_, reading_, problems_);
         } catch (const Error& error) {
