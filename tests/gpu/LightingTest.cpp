@@ -167,6 +167,25 @@ TEST_F(Lighting, EmissionIsAddedAndAmbientFollowsTheNormal) {
     }
 }
 
+TEST_F(Lighting, FloorsSeeTheSkyAndCeilingsTheGround) {
+    for (const float facing : {1.0f, -1.0f}) {
+        Scene scene = darkScene();
+        addObject(scene, makePlane(glm::vec2(20)),
+                  glm::rotate(glm::mat4(1), facing > 0 ? 0.0f : 3.14159265f, {1, 0, 0}));
+        scene.ambient = Ambient{{1, 0, 0}, {0, 1, 0}};
+        Camera camera = Camera::lookAt({0, 5 * facing, 0}, {0, 0, 0}, {0, 0, -1});
+        camera.near = 1;
+        camera.far = 10;
+        renderer_->setScene(scene);
+        for (const char* pipeline : {"deferred", "forward"}) {
+            load(pipeline);
+            const glm::vec4 color = radiance(viewOf(camera, 4, 4)).at(1, 1);
+            EXPECT_GT(facing > 0 ? color.x : color.y, 0.95f) << pipeline << facing;
+            EXPECT_LT(facing > 0 ? color.y : color.x, 0.001f) << pipeline << facing;
+        }
+    }
+}
+
 TEST_F(Lighting, ForwardAndDeferredShowTheSamePicture) {
     for (const char* name : {"crease", "default"}) {
         renderer_->setScene(shippedScene(name));

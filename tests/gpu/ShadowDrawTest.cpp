@@ -166,15 +166,18 @@ TEST_F(ShadowDraw, AFloorUnderALowSunHasNoSpeckles) {
 TEST_F(ShadowDraw, AShadowBeginsAtTheFootOfWhatCastsIt) {
     Scene scene = darkScene();
     addFloor(scene, 12);
-    addBlock(scene, {0, 0.5f, 0}, {1, 1, 1});
+    addBlock(scene, {0, 0.25f, 0}, {1, 0.5f, 1});
     scene.lights = {sun()};
     const View view = viewOf(topCamera(3, {1, 0, 0}), 300, 300);
     renderer_->setScene(scene);
     load("deferred");
     const Image image = radiance(view);
     // Biases let light in at the foot: 1.5 texels along the normal, and 0.0008 of the depth range.
-    for (float x = 0.54f; x < 1.45f; x += 0.02f) EXPECT_EQ(at(image, view, {x, 0, 0}).x, 0) << x;
-    EXPECT_GT(at(image, view, {1.6f, 0, 0}).x, 0.2f);
+    for (float x = 0.54f; x < 0.95f; x += 0.02f) EXPECT_EQ(at(image, view, {x, 0, 0}).x, 0) << x;
+    EXPECT_GT(at(image, view, {1.1f, 0, 0}).x, 0.2f);
+    // A bias of a tenth of the light's depth range, 0.88 units, frees what is 0.71 below the top.
+    load("deferred", {}, {{.path = "ShadowStage.params.bias", .value = "0.1"}});
+    EXPECT_GT(at(radiance(view), view, {0.75f, 0, 0}).x, 0.2f);
 }
 
 TEST_F(ShadowDraw, TheFilterIsAsWideAsItsName) {
