@@ -60,7 +60,9 @@ Camera Camera::lookAt(const glm::vec3& eye, const glm::vec3& target, const glm::
     if (glm::length(glm::cross(forward, up)) < 1e-4f * glm::length(up) || glm::length(up) == 0)
         safeUp = std::abs(forward.y) > 0.9f ? glm::vec3(0, 0, forward.y > 0 ? 1 : -1) : glm::vec3(0, 1, 0);
     Camera camera;
-    camera.view = glm::lookAtRH(eye, eye + forward, safeUp);
+    // Turned at the origin, then moved: far from it, eye + forward would lose the direction's digits.
+    camera.view = glm::lookAtRH(glm::vec3(0), forward, safeUp);
+    camera.view[3] = glm::vec4(-(glm::mat3(camera.view) * eye), 1);
     return camera;
 }
 
