@@ -29,8 +29,9 @@ bool looksLikePng(std::span<const std::byte> bytes) {
 Image decodePng(std::span<const std::byte> bytes, const std::string& name) {
     const auto check = [&](int result) {
         if (result == 0) return;
-        throw Error(fmt::format("cannot read '{}' as PNG: {}", name, spng_strerror(result)),
-                    "the file is damaged or cut off: write it again");
+        if (result == SPNG_EUSER_WIDTH || result == SPNG_EUSER_HEIGHT)
+            throw Error(fmt::format("the PNG '{}' is larger than {} pixels a side", name, kMaxSide), "make it smaller");
+        throw Error(fmt::format("the PNG '{}' is damaged or cut off", name), "write it again, or fetch it again");
     };
     const std::unique_ptr<spng_ctx, FreeContext> context(spng_ctx_new(0));
     if (!context) throw Error(fmt::format("cannot read '{}': no memory", name));
