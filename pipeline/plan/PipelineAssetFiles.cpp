@@ -49,12 +49,14 @@ private:
     AssetRoots roots_;
     const OptionTexts& requested_;
     Problems& problems_;
+    fs::path youngestFolder_;
     std::vector<Value> declared_;  ///< The "options" of the documents, youngest first.
 };
 
 /// Oldest first, each flow file in front of the document that names it.
 std::vector<PipelineSource> ChainReader::read(Value document, const std::string& file) {
     std::vector<PipelineSource> documents = readAncestors(std::move(document), file);
+    youngestFolder_ = fs::path(file).parent_path();
     // All documents first: a name of a flow file may use options that a parent declares or a child changes.
     for (const PipelineSource& source : documents)
         if (const Value* options = source.tree.find("options"); options && options->isObject())
@@ -119,8 +121,10 @@ fs::path ChainReader::findParent(const Value& extends, const fs::path& folder) c
 
 std::optional<fs::path> ChainReader::findFlow(const std::string& name, const fs::path& folder) const {
     if (const auto found = roots_.find(AssetKind::Flow, name)) return found;
-    for (const fs::path& candidate : {folder / "flows" / (name + ".flow.json"), folder / (name + ".flow.json")})
-        if (fs::is_regular_file(candidate) && roots_.contains(candidate)) return candidate;
+    // Beside the document that names it, or the one that chooses it by an option.
+    for (const fs::path& place : {folder, youngestFolder_})
+        for (const fs::path& candidate : {place / "flows" / (name + ".flow.json"), place / (name + ".flow.json")})
+            if (fs::is_regular_file(candidate) && roots_.contains(candidate)) return candidate;
     return std::nullopt;
 }
 

@@ -256,6 +256,18 @@ TEST(PipelineFlowFile, ChildChangesTheChoiceOfItsParent) {
         << "an option of the parent";
 }
 
+TEST(PipelineFlowFile, ChildAddsAChoiceWithAFileBesideIt) {
+    AssetFolder folder;
+    writeTechniques(folder);
+    folder.write("mine/own.pipeline.json", R"({ "extends": "parent",
+        "options": { "ao": { "override": true, "default": "mine", "choices": ["gtao", "mine"] } } })");
+    folder.write("mine/flows/ao/mine.flow.json", R"({ "stages": [ { "stage": "B" } ] })");
+    const std::string path = (folder.path() / "mine/own.pipeline.json").string();
+    EXPECT_EQ(stageOrder(load(folder, path)), "ao/mine: B\nLast: A\n");
+    EXPECT_EQ(stageOrder(load(folder, path, {.nameOrPath = "", .options = {{"ao", "gtao"}}, .sets = {}})),
+              "ao/gtao: AoMain\nLast: A\n");
+}
+
 TEST(PipelineFlowFile, MistakesInTheOptionThatChoosesIt) {
     AssetFolder folder;
     writeTechniques(folder);
