@@ -10,6 +10,9 @@
 
 namespace crevice {
 
+/// Share of the scene's bounding-box diagonal that `auto` lengths such as an occlusion radius take.
+inline constexpr float kAutoLength = 1.0f / 40.0f;
+
 GlobalBlock globalBlock(const FrameView& view);
 CameraBlock cameraBlock(const FrameView& view, const Scene& scene);
 

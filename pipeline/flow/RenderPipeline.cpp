@@ -15,9 +15,6 @@
 namespace crevice {
 namespace {
 
-/// Share of the scene's bounding-box diagonal that `auto` lengths such as an AO radius take.
-constexpr float kAutoLength = 1.0f / 40.0f;
-
 class Setup final : public StageSetup {
 public:
     Setup(StageExecution& execution, const SceneGpu& scene, glm::uvec2 extent)

@@ -98,7 +98,7 @@ TEST_F(UsageTest, ColoursAreChecked) {
 
 TEST_F(UsageTest, PipelinesAreChecked) {
     const std::string render = "render crease -o a.png ";
-    expectRefused(render + "-p ssao-defered", "no pipeline named 'ssao-defered'", "did you mean 'ssao-deferred'?");
+    expectRefused(render + "-p ssao-defered", "no pipeline named 'ssao-defered'", "did you mean 'ssao-deferred'");
     expectRefused(render + "-p gone.pipeline.json", "no pipeline file 'gone.pipeline.json'", "a name");
     expectRefused(render + "--option sao=false", "no option named 'sao'", "did you mean 'ssao'?");
     expectRefused(render + "--option ssao", "--option: 'ssao' has no '='", "NAME=VALUE");

@@ -20,8 +20,6 @@ constexpr const char* kExamples =
     "  crevice info\n"
     "  crevice info default\n";
 
-constexpr float kAutoRadiusPart = 1.0f / 40.0f;  // of the scene's diagonal, as RenderPipeline has it
-
 struct InfoOptions {
     std::string scene, device;
     bool allowOutside = false;
@@ -110,7 +108,7 @@ int printSceneInfo(const InfoOptions& options, const Log& log) {
                                    : fmt::format("{:.6g},{:.6g},{:.6g} to {:.6g},{:.6g},{:.6g}", box.min.x, box.min.y,
                                                  box.min.z, box.max.x, box.max.y, box.max.z)});
     table.add({"auto radius",
-               fmt::format("{:.4g} (1/40 of the diagonal {:.4g})", kAutoRadiusPart * box.diagonal(), box.diagonal())});
+               fmt::format("{:.4g} (1/40 of the diagonal {:.4g})", kAutoLength * box.diagonal(), box.diagonal())});
     const bool lit = addDefaultLight(scene);
     table.add({"exposure", fmt::format("{:.3g} EV{}", scene.exposureEv ? *scene.exposureEv : autoExposureEv(scene),
                                        scene.exposureEv ? ""

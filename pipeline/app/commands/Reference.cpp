@@ -15,6 +15,7 @@
 #include "app/commands/ViewOptions.h"
 #include "core/Error.h"
 #include "core/Text.h"
+#include "flow/FrameData.h"
 #include "truth/AmbientReference.h"
 #include "truth/Metrics.h"
 
@@ -26,8 +27,6 @@ constexpr const char* kExamples =
     "  crevice reference crease -o truth.exr --size 160x90 --samples 64\n"
     "  crevice reference default -o truth.png --size 160x90 --samples 64 --radius 0.5 --falloff linear\n";
 
-/// Of the scene's diagonal: what `auto` lengths of effects are, too (flow/RenderPipeline.cpp).
-constexpr float kAutoRadius = 1.0f / 40;
 constexpr std::uint32_t kMaxSamples = 1u << 20;
 
 struct ReferenceOptions {
@@ -89,7 +88,7 @@ AmbientMap trace(const ReferenceOptions& options, const ViewChoice& view, Ambien
     const Camera camera = resolveCamera(view, scene);
     const RayScene rays(scene);
     const bool isAuto = settings.radius <= 0;
-    if (isAuto) settings.radius = std::max(kAutoRadius * rays.diagonal(), 1e-6f);
+    if (isAuto) settings.radius = std::max(kAutoLength * rays.diagonal(), 1e-6f);
     settings.progress = [&](float share) { progress.show(fmt::format("tracing: {:.0f} %", 100 * share)); };
     AmbientMap map = traceAmbient(rays, camera, view.size, settings);
     log.note(fmt::format("radius {:.4g}{}, {} rays a pixel, standard error {:.2g}, {:.1f} % sky", settings.radius,
