@@ -115,10 +115,6 @@ public:
     void copyBuffer(const Buffer& from, const Buffer& to, std::uint64_t bytes, std::uint64_t fromOffset = 0,
                     std::uint64_t toOffset = 0);
     void fillBuffer(const Buffer& buffer, std::uint32_t word);
-    /// Scales mip `fromMip` of one texture onto mip `toMip` of another (or the same), all layers.
-    void blit(const GpuTexture& from, std::uint32_t fromMip, const GpuTexture& to, std::uint32_t toMip, Filter filter);
-    /// Fills mips 1… by halving mip 0 (box of two, sRGB averaged linearly). All mips go from `from` to `to`.
-    void generateMips(const GpuTexture& texture, TextureState from, TextureState to);
 
     // Debugging and time
     void beginLabel(const std::string& name);

@@ -66,37 +66,4 @@ void Commands::fillBuffer(const Buffer& buffer, std::uint32_t word) {
     vkCmdFillBuffer(commands_, buffer.handle(), 0, VK_WHOLE_SIZE, word);
 }
 
-void Commands::blit(const GpuTexture& from, std::uint32_t fromMip, const GpuTexture& to, std::uint32_t toMip,
-                    Filter filter) {
-    const auto cornerOf = [](const GpuTexture& texture, std::uint32_t mip) {
-        return VkOffset3D{static_cast<std::int32_t>(texture.width(mip)), static_cast<std::int32_t>(texture.height(mip)),
-                          1};
-    };
-    VkImageBlit region{};
-    region.srcSubresource = {from.aspect(), fromMip, 0, from.desc().layers};
-    region.srcOffsets[1] = cornerOf(from, fromMip);
-    region.dstSubresource = {to.aspect(), toMip, 0, to.desc().layers};
-    region.dstOffsets[1] = cornerOf(to, toMip);
-    vkCmdBlitImage(commands_, from.handle(), layoutOf(TextureState::TransferSource), to.handle(),
-                   layoutOf(TextureState::TransferDest), 1, &region, crevice::toVk(filter));
-}
-
-void Commands::generateMips(const GpuTexture& texture, TextureState from, TextureState to) {
-    if (!supportsLinearFilter(device_, texture.format())) {
-        throw Error(fmt::format("device '{}' cannot filter format '{}', which the mips of texture '{}' need",
-                                device_.deviceName(), formatInfo(texture.format()).name, texture.desc().name));
-    }
-    const std::uint32_t mips = texture.desc().mips;
-    for (std::uint32_t mip = 0; mip < mips; ++mip) {
-        const TextureState before = mip == 0 ? from : TextureState::TransferDest;
-        std::vector<TextureBarrier> moves{{&texture, before, TextureState::TransferSource, mip, 1}};
-        if (mip == 0 && mips > 1) {
-            moves.push_back({&texture, TextureState::Undefined, TextureState::TransferDest, 1, mips - 1});
-        }
-        barriers(moves);
-        if (mip + 1 < mips) blit(texture, mip, texture, mip + 1, Filter::Linear);
-    }
-    barrier(texture, TextureState::TransferSource, to);
-}
-
 }  // namespace crevice

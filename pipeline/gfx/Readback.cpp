@@ -4,6 +4,7 @@
 #include <cassert>
 #include <cstring>
 
+#include "core/ImageMips.h"
 #include "gfx/Device.h"
 
 namespace crevice {
@@ -55,18 +56,22 @@ GpuTexture makeTexture(Device& device, const Image& image, bool mips, const std:
     desc.name = name;
     GpuTexture texture(device, desc);
 
-    const Buffer staging(device, {.size = image.pixels.size(), .usage = BufferUsage::TransferSource, .name = "staging"},
-                         image.pixels);
+    std::vector<Image> levels;
+    if (mips) levels = makeMips(image);
+    std::uint64_t bytes = image.pixels.size();
+    for (const Image& level : levels) bytes += level.pixels.size();
+    Buffer staging(device, {.size = bytes, .usage = BufferUsage::TransferSource, .name = "staging"});
     Commands commands(device, "upload '" + name + "'");
     commands.begin();
-    const TextureBarrier toDest{&texture, TextureState::Undefined, TextureState::TransferDest, 0, 1};
-    commands.barriers({&toDest, 1});
-    commands.copyBufferToTexture(staging, texture);
-    if (desc.mips > 1) {
-        commands.generateMips(texture, TextureState::TransferDest, TextureState::Sampled);
-    } else {
-        commands.barrier(texture, TextureState::TransferDest, TextureState::Sampled);
+    commands.barrier(texture, TextureState::Undefined, TextureState::TransferDest);
+    std::uint64_t offset = 0;
+    for (std::uint32_t mip = 0; mip < desc.mips; ++mip) {
+        const Image& level = mip == 0 ? image : levels[mip - 1];
+        staging.write(level.pixels, offset);
+        commands.copyBufferToTexture(staging, texture, mip, 0, offset);
+        offset += level.pixels.size();
     }
+    commands.barrier(texture, TextureState::TransferDest, TextureState::Sampled);
     commands.submitAndWait();
     return texture;
 }

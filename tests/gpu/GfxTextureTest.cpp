@@ -148,16 +148,14 @@ TEST_F(GfxTest, SixFacesOfACubeStayApart) {
 }
 
 TEST_F(GfxTest, MipOfTwoByTwoIsTheExactMean) {
-    Image image(2, 2, Format::RGBA32F);
-    const float values[] = {1, 2, 4, 9};
-    for (std::uint32_t i = 0; i < 4; ++i) {
-        const glm::vec4 pixel(values[i], -values[i], 0, 1);
-        std::memcpy(image.pixel(i % 2, i / 2), &pixel, sizeof pixel);
-    }
+    Image image(2, 2, Format::RGBA8);
+    const int values[] = {10, 20, 40, 90};
+    for (std::uint32_t i = 0; i < 4; ++i) std::fill_n(image.pixel(i % 2, i / 2), 4, static_cast<std::byte>(values[i]));
     const GpuTexture texture = makeTexture(*device_, image, true, "mips");
     EXPECT_EQ(texture.desc().mips, 2u);
     EXPECT_EQ(readTexture(*device_, texture, TextureState::Sampled, 0), image);
-    EXPECT_EQ(readTexture(*device_, texture, TextureState::Sampled, 1).at(0, 0), glm::vec4(4, -4, 0, 1));
+    EXPECT_EQ(readTexture(*device_, texture, TextureState::Sampled, 1).pixels,
+              std::vector<std::byte>(4, std::byte{40}));
 }
 
 TEST_F(GfxTest, MipsOfSrgbAreAveragedInLinearLight) {
@@ -166,8 +164,8 @@ TEST_F(GfxTest, MipsOfSrgbAreAveragedInLinearLight) {
     for (std::uint32_t y = 0; y < 2; ++y) std::fill_n(image.pixel(1, y), 4, std::byte{255});
     const GpuTexture texture = makeTexture(*device_, image, true, "srgb");
     const Image mip = readTexture(*device_, texture, TextureState::Sampled, 1);
-    EXPECT_NEAR(std::to_integer<int>(mip.pixels[0]), 188, 1);
-    EXPECT_NEAR(std::to_integer<int>(mip.pixels[3]), 128, 1) << "alpha is linear";
+    EXPECT_EQ(std::to_integer<int>(mip.pixels[0]), 188);
+    EXPECT_EQ(std::to_integer<int>(mip.pixels[3]), 128) << "alpha is linear";
 }
 
 TEST_F(GfxTest, MipSizesFollowVulkanForOddSizes) {
@@ -179,24 +177,6 @@ TEST_F(GfxTest, MipSizesFollowVulkanForOddSizes) {
     const Image last = readTexture(*device_, texture, TextureState::Sampled, 2);
     EXPECT_EQ(last.width, 1u);
     EXPECT_EQ(last.height, 1u);
-}
-
-TEST_F(GfxTest, BlitScalesNearestExactly) {
-    const Image image = pattern(2, 2, Format::RGBA8);
-    const GpuTexture small = makeTexture(*device_, image, false, "small");
-    const GpuTexture large(*device_,
-                           {.format = Format::RGBA8, .width = 4, .height = 4, .usage = kCopies, .name = "large"});
-    Commands commands(*device_);
-    commands.begin();
-    commands.barrier(small, TextureState::Sampled, TextureState::TransferSource);
-    commands.barrier(large, TextureState::Undefined, TextureState::TransferDest);
-    commands.blit(small, 0, large, 0, Filter::Nearest);
-    commands.barrier(large, TextureState::TransferDest, TextureState::TransferSource);
-    commands.submitAndWait();
-    const Image result = readTexture(*device_, large, TextureState::TransferSource);
-    for (std::uint32_t y = 0; y < 4; ++y) {
-        for (std::uint32_t x = 0; x < 4; ++x) EXPECT_EQ(result.at(x, y), image.at(x / 2, y / 2));
-    }
 }
 
 TEST_F(GfxTest, RecordedBarriersAreListedAsGiven) {
