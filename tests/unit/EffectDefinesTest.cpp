@@ -107,7 +107,7 @@ TEST_F(EffectDefineValues, ValuesReachTheShader) {
 }
 
 TEST_F(EffectDefineValues, DiscoverNamesThemAll) {
-    EXPECT_EQ(namesOf(bench.library.discoverDefines("e")), (std::vector<std::string>{"COUNT", "AXIS", "FLAG"}));
+    EXPECT_EQ(namesOf(bench.effects.discoverDefines("e")), (std::vector<std::string>{"COUNT", "AXIS", "FLAG"}));
 }
 
 TEST_F(EffectDefineValues, WrongOnesAreReportedWhereTheyWereAsked) {

@@ -26,9 +26,9 @@ TEST(EffectLibrary, VariantsAreMadeOnce) {
     EXPECT_EQ(&bench.get({}, other), &first);  // Numbers of names that the shader does not have.
     other["map"] = {0, 21};
     EXPECT_EQ(bench.get({}, other).info.find("map")->slot, (BindingSlot{0, 21}));
-    EXPECT_EQ(bench.library.counters().compiled, 3u);
-    EXPECT_EQ(bench.library.counters().fromMemory, 3u);
-    EXPECT_EQ(bench.library.counters().fromDisk, 0u);
+    EXPECT_EQ(bench.effects.counters().compiled, 3u);
+    EXPECT_EQ(bench.effects.counters().fromMemory, 3u);
+    EXPECT_EQ(bench.effects.counters().fromDisk, 0u);
 }
 
 TEST(EffectLibrary, GeneratedChunks) {
@@ -36,14 +36,14 @@ TEST(EffectLibrary, GeneratedChunks) {
     bench.chunk("value", "const float kValue = 1.0;\n");
     bench.fullscreen("#include <value>\nlayout(location = 0) out vec4 color;\nvoid main() { color = vec4(kValue); }\n");
     const auto fromFile = bench.get().fragment;
-    bench.library.setChunk("value", "const float kValue = 2.0;\n");
+    bench.effects.setChunk("value", "const float kValue = 2.0;\n");
     const auto generated = bench.get().fragment;
     EXPECT_NE(fromFile, generated);
-    bench.library.setChunk("value", "const float kValue = 2.0;\n");
+    bench.effects.setChunk("value", "const float kValue = 2.0;\n");
     bench.get();
-    EXPECT_EQ(bench.library.counters().compiled, 2u);
-    EXPECT_EQ(bench.library.counters().fromMemory, 1u);
-    bench.library.setChunk("value", "const float kValue = ;\n");
+    EXPECT_EQ(bench.effects.counters().compiled, 2u);
+    EXPECT_EQ(bench.effects.counters().fromMemory, 1u);
+    bench.effects.setChunk("value", "const float kValue = ;\n");
     EXPECT_EQ(bench.problem().where.file, "<generated value>");
 }
 
@@ -53,10 +53,10 @@ TEST(EffectLibrary, TextIsWhatTheCompilerGets) {
     VariantRequest request;
     request.effect = "e";
     request.defines = {{"BRIGHT", "1"}};
-    const std::string text = bench.library.text(request, kFragmentBit);
+    const std::string text = bench.effects.text(request, kFragmentBit);
     EXPECT_TRUE(text.starts_with("#version 450\n#define BRIGHT 1\n")) << text;
     EXPECT_NE(text.find("texture(map, v_uv)"), std::string::npos);
-    EXPECT_EQ(bench.library.text(request, kComputeBit), "");
+    EXPECT_EQ(bench.effects.text(request, kComputeBit), "");
 }
 
 TEST(EffectLibrary, UnknownEffectTechniqueAndPass) {
@@ -70,7 +70,7 @@ TEST(EffectLibrary, UnknownEffectTechniqueAndPass) {
         request.pass = pass;
         request.where = {"ask.json", 4, 2, 1};
         try {
-            bench.library.get(request, {});
+            bench.effects.get(request, {});
         } catch (const Error& error) {
             const Problem& problem = error.problems().front();
             return problem.where.file + ": " + problem.message + "; " + problem.help;
@@ -90,12 +90,12 @@ TEST(EffectLibrary, EffectsByPath) {
     bench.fullscreen(kFragment);
     EffectFolder outside;
     std::filesystem::copy(bench.file(), outside.path() / "o.effect");
-    EXPECT_EQ(bench.library.asset((outside.path() / "o.effect").string()).name, "o");
+    EXPECT_EQ(bench.effects.asset((outside.path() / "o.effect").string()).name, "o");
     // A document may only name files inside the asset folders.
     bench.folder.write("effects/doc.json", "{}");
     const SourceLoc document{(bench.folder.path() / "effects/doc.json").string(), 1, 1, 1};
-    EXPECT_EQ(bench.library.asset("e.effect", document).name, "e");
-    EXPECT_THROW(bench.library.asset((outside.path() / "./o.effect").string(), document), Error);
+    EXPECT_EQ(bench.effects.asset("e.effect", document).name, "e");
+    EXPECT_THROW(bench.effects.asset((outside.path() / "./o.effect").string(), document), Error);
 }
 
 TEST(EffectLibrary, OtherRootsGiveOtherEffectsOfTheSameName) {
@@ -108,9 +108,9 @@ TEST(EffectLibrary, OtherRootsGiveOtherEffectsOfTheSameName) {
     std::string text = readText(bench.file());
     text.replace(text.find("frag:"), 0, "blendState: { targets: [ { blend: true } ] }\n      ");
     other.write("effects/e.effect", text);
-    AssetRoots roots = bench.library.roots();
+    AssetRoots roots = bench.effects.roots();
     roots.prepend(other.path());
-    bench.library.setRoots(roots);
+    bench.effects.setRoots(roots);
     const EffectVariant& second = bench.get();
     EXPECT_NE(first.id, second.id);
     EXPECT_TRUE(first.pass->state.blendTargets.empty() || !first.pass->state.blendTargets[0].blend);

@@ -85,7 +85,7 @@ public:
     EffectBench() { keepCompilerWarm(); }
 
     EffectFolder folder;
-    EffectLibrary library{AssetRoots({folder.path()}), Log(LogLevel::Error), {.useDiskCache = false}};
+    EffectLibrary effects{AssetRoots({folder.path()}), Log(LogLevel::Error), {.useDiskCache = false}};
 
     void effect(const std::string& text) const { folder.write("effects/e.effect", text); }
     void chunk(const std::string& name, const std::string& text) const {
@@ -106,7 +106,7 @@ public:
         request.effect = "e";
         request.defines = defines;
         request.where = {"ask.json", 7, 3, 1};
-        return library.get(request, bindings);
+        return effects.get(request, bindings);
     }
     /// The problem that get() reports; an empty message when it succeeds.
     Problem problem(const Defines& defines = {}) {

@@ -7,32 +7,13 @@ namespace crevice {
 namespace {
 
 using test::AssetFolder;
+using test::child;
 using test::document;
+using test::kBase;
+using test::load;
 using test::parse;
 using test::stageOf;
 using test::stageOrder;
-
-constexpr const char* kBase = R"({
-  "name": "base", "output": "out",
-  "options": { "fast": { "type": "bool", "default": false } },
-  "targets": { "out": { "format": "RGBA8" }, "aux": { "format": "R16F", "scale": 0.5 } },
-  "flows": [
-    { "flow": "First", "priority": 1, "stages": [ { "stage": "A" }, { "stage": "B", "effect": "b", "material": { "x": 1, "y": 2 } } ] },
-    { "flow": "Last", "priority": 5, "stages": [ { "stage": "C" }, { "stage": "D" } ] } ]
-})";
-
-PipelineDesc load(const AssetFolder& folder, const std::string& name, PipelineRequest request = {}) {
-    request.nameOrPath = name;
-    return loadPipeline(folder.roots(), request);
-}
-
-/// A child of kBase with more keys.
-PipelineDesc child(const std::string& keys, PipelineRequest request = {}) {
-    AssetFolder folder;
-    folder.pipeline("base", kBase);
-    folder.pipeline("child", R"({ "extends": "base", )" + keys + " }");
-    return load(folder, "child", std::move(request));
-}
 
 std::string messageOf(const std::function<void()>& action) {
     try {
