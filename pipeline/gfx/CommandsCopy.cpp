@@ -1,13 +1,9 @@
 // Recording of clears and copies.
 #include <cassert>
 
-#include <fmt/format.h>
-
-#include "core/Error.h"
 #include "gfx/Barriers.h"
 #include "gfx/Commands.h"
 #include "gfx/Device.h"
-#include "gfx/Format.h"
 #include "gfx/StateWords.h"
 
 namespace crevice {
