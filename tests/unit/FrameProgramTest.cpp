@@ -1,6 +1,7 @@
 // From a document to a plan: reads found in shaders, numbers and layouts read out of what was compiled.
 #include <gmock/gmock.h>
 
+#include "EffectTestTools.h"
 #include "FrameTools.h"
 
 namespace crevice {
@@ -89,24 +90,7 @@ TEST_F(FrameProgramTest, ASceneBringsItsMaterialsReads) {
 }
 
 TEST_F(FrameProgramTest, TheNumbersOfTheContractStandInEveryShader) {
-    const std::map<std::string, BindingSlot> contract = {{"CCGlobal", {0, 0}},
-                                                         {"CCCamera", {0, 1}},
-                                                         {"CCShadow", {0, 2}},
-                                                         {"cc_shadowMap", {0, 3}},
-                                                         {"cc_environment", {0, 4}},
-                                                         {"cc_spotLightingMap", {0, 5}},
-                                                         {"cc_gbuffer_albedoMap", {0, 6}},
-                                                         {"cc_gbuffer_positionMap", {0, 7}},
-                                                         {"cc_gbuffer_normalMap", {0, 8}},
-                                                         {"cc_gbuffer_emissiveMap", {0, 9}},
-                                                         {"cc_lighting_resultMap", {0, 10}},
-                                                         {"cc_ssaoMap", {0, 11}},
-                                                         {"CCSsao", {0, 12}},
-                                                         {"cc_ssaoBlurMap", {0, 13}},
-                                                         {"CCSpotShadow", {0, 28}},
-                                                         {"CCPunctualLights", {0, 30}},
-                                                         {"CCLocal", {2, 0}},
-                                                         {"CCForwardLight", {2, 1}}};
+    const BindingMap contract = contractBindings();
     const Scene scene = twoMaterials();
     std::set<std::string> seen;
     for (const char* form : {"default", "article"}) {
