@@ -32,6 +32,8 @@ public:
     }
     void declare(StageIo& io) override {
         io.color("cc_ssaoMap");
+        // An effect that also packs its values for a denoiser has a second output; the document names its target.
+        if (io.documentWrites().size() > 1) io.color(io.documentWrites()[1]);
         block_ = io.block<SsaoBlock>("CCSsao");
         draw_ = io.fullscreen("ssao");
         const std::span<glm::vec4> kernel(data_.samples, samples_);

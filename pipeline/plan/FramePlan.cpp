@@ -302,7 +302,11 @@ private:
             const std::string message =
                 fmt::format("'{}' writes '{}', which no stage reads and which is not the output", writer.stage, name);
             const std::vector<Remark> remarks{{track.desc->where, fmt::format("'{}' is declared here", name)}};
-            if (isClassStage(writer.stage)) {
+            const bool isUseful = std::any_of(writer.writes.begin(), writer.writes.end(), [&](const auto& other) {
+                const TargetTrack* output = find(other.target);
+                return output && std::any_of(output->levels.begin(), output->levels.end(), read);
+            });
+            if (isClassStage(writer.stage) || isUseful) {
                 // Inherited, it offers to the child what the parent needed: no fault of the child's.
                 if (desc_.path.empty() || writer.where.file == desc_.path) problems_.note(writer.where, message);
             } else {
