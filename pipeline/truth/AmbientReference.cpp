@@ -5,11 +5,11 @@
 #include <atomic>
 #include <cassert>
 #include <cmath>
-#include <cstring>
 #include <thread>
 
 #include "truth/CameraRay.h"
 #include "truth/Sampling.h"
+#include "truth/TruthCache.h"
 
 namespace crevice {
 namespace {
@@ -18,80 +18,129 @@ namespace {
 constexpr float kOriginOffset = 1e-4f;
 /// The share counts of no more than this part of the scene: for radii beyond the scene.
 constexpr float kLargestOffsetRadius = 1.0f / 400;
-constexpr float kDepthTolerance = 1e-3f;
 
-float weightAt(float distance, const AmbientSettings& settings) {
-    const float x = distance / settings.radius;
-    if (!(x < 1)) return 0;
-    return settings.falloff == Falloff::Linear ? 1 - x : settings.falloff == Falloff::Quadratic ? 1 - x * x : 1;
-}
-
-double traceHalf(const RayScene& scene, const SurfaceHit& point, const AmbientSettings& settings, std::uint32_t seed) {
-    const std::uint32_t count = std::max(1u, (settings.samples + 1) / 2);
-    glm::vec3 u, v;
-    makeBasis(point.normal, u, v);
-    const float offset = std::max(kOriginOffset * std::min(settings.radius, kLargestOffsetRadius * scene.diagonal()),
-                                  point.positionError);
-    Ray ray{.origin = point.position + offset * point.geometricNormal, .near = 0, .far = settings.radius};
-    double occlusion = 0;
-    for (std::uint32_t i = 0; i < count; ++i) {
-        const glm::vec3 local = cosineDirection(scrambledSobol(i, seed));
-        ray.direction = local.x * u + local.y * v + local.z * point.normal;
-        if (settings.falloff == Falloff::Hard) {
-            occlusion += scene.isBlocked(ray) ? 1 : 0;
-        } else {
-            occlusion += static_cast<double>(weightAt(scene.findDistance(ray), settings));
-        }
-    }
-    return 1 - occlusion / count;
-}
-
-/// The squared differences of the halves, for the noise, and how many.
-struct RowNoise {
-    double sum = 0;
-    std::size_t count = 0;
+/// The terms that share one set of rays.
+struct Bundle {
+    DirectionLaw law = DirectionLaw::Cosine;
+    float reach = 0;       ///< Length of the rays: that of the farthest term.
+    bool onlyHard = true;  ///< One hard term alone: whether rays are blocked is enough.
+    std::vector<std::size_t> terms{};
 };
 
-RowNoise traceRow(AmbientMap& map, std::uint32_t y, const RayScene& scene, const Camera& camera,
-                  const AmbientSettings& settings) {
-    RowNoise noise;
+std::vector<Bundle> makeBundles(const AmbientSettings& settings) {
+    std::vector<Bundle> bundles;
+    for (const DirectionLaw law : {DirectionLaw::Cosine, DirectionLaw::Uniform, DirectionLaw::Box}) {
+        Bundle bundle{.law = law};
+        for (std::size_t i = 0; i < settings.terms.size(); ++i) {
+            const AmbientTerm& term = settings.terms[i];
+            if (term.falloff->directions != law) continue;
+            const float reach = term.radius * term.falloff->reach;
+            bundle.onlyHard =
+                term.falloff->isHard() && (bundle.terms.empty() || (bundle.onlyHard && reach == bundle.reach));
+            bundle.reach = std::max(bundle.reach, reach);
+            bundle.terms.push_back(i);
+        }
+        if (!bundle.terms.empty()) bundles.push_back(std::move(bundle));
+    }
+    return bundles;
+}
+
+float smallestRadius(const AmbientSettings& settings) {
+    float radius = settings.terms.front().radius;
+    for (const AmbientTerm& term : settings.terms) radius = std::min(radius, term.radius);
+    return radius;
+}
+
+/// What is the same for all points.
+struct Run {
+    const RayScene& scene;
+    const AmbientSettings& settings;
+    std::vector<Bundle> bundles = makeBundles(settings);
+    float offset = kOriginOffset * std::min(smallestRadius(settings), kLargestOffsetRadius* scene.diagonal());
+    std::uint32_t count = std::max(1u, settings.samples / 2 + settings.samples % 2);  ///< Rays of a half.
+};
+
+/// E[ρ] of every term, from one half of the rays.
+void traceHalf(const Run& run, const SurfaceHit& point, std::uint32_t seed, std::vector<double>& means) {
+    glm::vec3 u, v;
+    makeBasis(point.normal, u, v);
+    Ray ray{.origin = point.position + std::max(run.offset, point.positionError) * point.geometricNormal, .near = 0};
+    for (const Bundle& bundle : run.bundles) {
+        const auto number = static_cast<std::uint32_t>(bundle.law);
+        const std::uint32_t own = number == 0 ? seed : hashWithSeed(number, seed);
+        ray.far = bundle.reach;
+        for (const std::size_t i : bundle.terms) means[i] = 0;
+        for (std::uint32_t k = 0; k < run.count; ++k) {
+            const glm::vec3 local = sampleDirection(bundle.law, scrambledSobol(k, own));
+            ray.direction = local.x * u + local.y * v + local.z * point.normal;
+            if (bundle.onlyHard) {
+                if (!run.scene.isBlocked(ray)) continue;
+                for (const std::size_t i : bundle.terms) means[i] += 1;
+                continue;
+            }
+            const float distance = run.scene.findDistance(ray);
+            if (!(distance <= bundle.reach)) continue;
+            for (const std::size_t i : bundle.terms) {
+                const AmbientTerm& term = run.settings.terms[i];
+                means[i] += static_cast<double>(term.falloff->at(distance / term.radius));
+            }
+        }
+        for (const std::size_t i : bundle.terms) means[i] /= run.count;
+    }
+}
+
+/// Scratch memory of a thread.
+struct Halves {
+    std::vector<double> first, second;
+    explicit Halves(const AmbientSettings& settings) : first(settings.terms.size()), second(settings.terms.size()) {}
+    void trace(const Run& run, const SurfaceHit& point, std::uint32_t seed) {
+        traceHalf(run, point, hashWithSeed(0, seed), first);
+        traceHalf(run, point, hashWithSeed(1, seed), second);
+    }
+    Openness of(std::size_t term, const AmbientSettings& settings) const {
+        const Falloff& falloff = *settings.terms[term].falloff;
+        return {falloff.openness(first[term]), falloff.openness(second[term])};
+    }
+};
+
+void traceRow(AmbientMap& map, std::uint32_t y, const Run& run, const Camera& camera, Halves& halves) {
     for (std::uint32_t x = 0; x < map.size.x; ++x) {
         const std::size_t pixel = std::size_t(y) * map.size.x + x;
-        const auto hit = scene.findVisible(makeCameraRay(camera, glm::vec2(x, y) + 0.5f, map.size));
+        const auto hit = run.scene.findVisible(makeCameraRay(camera, glm::vec2(x, y) + 0.5f, map.size));
         if (!hit) continue;
-        const std::uint32_t seed = hashWithSeed(static_cast<std::uint32_t>(pixel), settings.seed);
-        const Openness openness = traceOpenness(scene, *hit, settings, seed);
-        map.openness[pixel] = static_cast<float>(openness.mean());
+        halves.trace(run, *hit, hashWithSeed(static_cast<std::uint32_t>(pixel), run.settings.seed));
+        for (std::size_t i = 0; i < map.layers.size(); ++i) {
+            const Openness openness = halves.of(i, run.settings);
+            map.layers[i].first[pixel] = static_cast<float>(openness.first);
+            map.layers[i].second[pixel] = static_cast<float>(openness.second);
+        }
         map.viewDepth[pixel] = hit->distance;
+        map.normal[pixel] = hit->normal;
         map.isCounted[pixel] = 1;
-        noise.sum += (openness.first - openness.second) * (openness.first - openness.second);
-        ++noise.count;
     }
-    return noise;
 }
 
-}  // namespace
-
-Openness traceOpenness(const RayScene& scene, const SurfaceHit& point, const AmbientSettings& settings,
-                       std::uint32_t seed) {
-    return {traceHalf(scene, point, settings, hashWithSeed(0, seed)),
-            traceHalf(scene, point, settings, hashWithSeed(1, seed))};
-}
-
-AmbientMap traceAmbient(const RayScene& scene, const Camera& camera, const glm::uvec2& size,
-                        const AmbientSettings& settings) {
-    assert(camera.near > 0 && camera.far > camera.near && settings.radius > 0);
+AmbientMap emptyMap(const glm::uvec2& size, const AmbientSettings& settings) {
     const std::size_t pixels = std::size_t(size.x) * size.y;
     AmbientMap map{.size = size,
-                   .openness = std::vector<float>(pixels, 1.0f),
                    .viewDepth = std::vector<float>(pixels, kSkyViewDepth),
+                   .normal = std::vector<glm::vec3>(pixels, glm::vec3(0)),
                    .isCounted = std::vector<std::uint8_t>(pixels, 0)};
-    std::vector<RowNoise> noise(size.y);
+    const std::vector<float> open(pixels, 1.0f);
+    for (const AmbientTerm& term : settings.terms)
+        map.layers.push_back({.term = term, .openness = open, .first = open, .second = open});
+    return map;
+}
+
+void traceMap(AmbientMap& map, const RayScene& scene, const Camera& camera, const AmbientSettings& settings) {
+    const std::uint32_t rows = map.size.y;
+    const Run run{scene, settings};
     std::atomic<std::uint32_t> nextRow{0};
     const auto work = [&](bool reports) {
-        for (std::uint32_t y = nextRow++; y < size.y; y = nextRow++) {
-            if (reports && settings.progress) settings.progress(static_cast<float>(y) / static_cast<float>(size.y));
-            noise[y] = traceRow(map, y, scene, camera, settings);
+        Halves halves(settings);
+        for (std::uint32_t y = nextRow++; y < rows; y = nextRow++) {
+            if (reports && settings.progress) settings.progress(static_cast<float>(y) / static_cast<float>(rows));
+            traceRow(map, y, run, camera, halves);
         }
     };
     const unsigned threads = settings.threads ? settings.threads : std::max(1u, std::thread::hardware_concurrency());
@@ -100,39 +149,57 @@ AmbientMap traceAmbient(const RayScene& scene, const Camera& camera, const glm::
         for (unsigned i = 1; i < threads; ++i) helpers.emplace_back(work, false);
         work(true);
     }
-    RowNoise total;
-    for (const RowNoise& row : noise) {
-        total.sum += row.sum;
-        total.count += row.count;
+}
+
+/// What follows from the halves.
+void finishMap(AmbientMap& map) {
+    for (std::size_t i = 0; i < map.layers.size(); ++i) {
+        AmbientLayer& layer = map.layers[i];
+        for (std::size_t p = 0; p < layer.openness.size(); ++p)
+            layer.openness[p] = static_cast<float>(0.5 * (double(layer.first[p]) + double(layer.second[p])));
+        layer.noise = map.countedNoise(i);
     }
-    // The mean of two halves has a quarter of the variance of their difference.
-    if (total.count > 0) map.noise = std::sqrt(total.sum / (4.0 * static_cast<double>(total.count)));
+}
+
+using RayMaker = std::function<const RayScene&()>;
+
+AmbientMap loadOrTrace(const Scene& scene, const RayMaker& rays, const Camera& camera, const glm::uvec2& size,
+                       const AmbientSettings& settings) {
+    assert(camera.near > 0 && camera.far > camera.near && !settings.terms.empty());
+    const std::string key = settings.cache ? truthKey(scene, camera, size, settings) : std::string();
+    AmbientMap map = emptyMap(size, settings);
+    map.fromCache = settings.cache && loadTruth(*settings.cache, key, map);
+    if (!map.fromCache) {
+        traceMap(map, rays(), camera, settings);
+        if (settings.cache) storeTruth(*settings.cache, key, map);
+    }
+    finishMap(map);
     return map;
 }
 
-std::size_t AmbientMap::countedCount() const {
-    return static_cast<std::size_t>(std::count(isCounted.begin(), isCounted.end(), std::uint8_t{1}));
+}  // namespace
+
+std::vector<Openness> traceOpenness(const RayScene& scene, const SurfaceHit& point, const AmbientSettings& settings,
+                                    std::uint32_t seed) {
+    const Run run{scene, settings};
+    Halves halves(settings);
+    halves.trace(run, point, seed);
+    std::vector<Openness> result;
+    for (std::size_t i = 0; i < settings.terms.size(); ++i) result.push_back(halves.of(i, settings));
+    return result;
 }
 
-Image AmbientMap::toImage() const {
-    Image image(size.x, size.y, Format::R32F);
-    std::memcpy(image.pixels.data(), openness.data(), openness.size() * sizeof(float));
-    return image;
+AmbientMap traceAmbient(const RayScene& scene, const Camera& camera, const glm::uvec2& size,
+                        const AmbientSettings& settings) {
+    return loadOrTrace(
+        scene.source(), [&]() -> const RayScene& { return scene; }, camera, size, settings);
 }
 
-std::size_t excludeOtherSurfaces(AmbientMap& map, const Image& viewDepth) {
-    assert(viewDepth.width == map.size.x && viewDepth.height == map.size.y);
-    std::size_t excluded = 0;
-    for (std::uint32_t y = 0; y < map.size.y; ++y) {
-        for (std::uint32_t x = 0; x < map.size.x; ++x) {
-            const std::size_t pixel = std::size_t(y) * map.size.x + x;
-            const float traced = map.viewDepth[pixel];
-            if (std::abs(viewDepth.at(x, y).x - traced) <= kDepthTolerance * traced) continue;
-            map.isCounted[pixel] = 0;
-            ++excluded;
-        }
-    }
-    return excluded;
+AmbientMap traceAmbient(const Scene& scene, const Camera& camera, const glm::uvec2& size,
+                        const AmbientSettings& settings) {
+    std::optional<RayScene> rays;
+    return loadOrTrace(
+        scene, [&]() -> const RayScene& { return rays.emplace(scene); }, camera, size, settings);
 }
 
 }  // namespace crevice

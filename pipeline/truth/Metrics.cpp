@@ -39,11 +39,19 @@ MapMetrics measureMap(std::span<const float> map, std::span<const float> truth,
     result.bias = meanA - meanT;
     if (varianceA > 0 && varianceT > 0) result.correlation = covariance / std::sqrt(varianceA * varianceT);
     if (varianceT > 0) result.skill = 1 - mse / varianceT;
-    if (whiteMse > 0) result.ofWhite = result.rmse / std::sqrt(whiteMse);
+    result.white = std::sqrt(whiteMse);
+    if (whiteMse > 0) result.ofWhite = result.rmse / result.white;
+    if (varianceA > 0) result.slope = covariance / varianceA;
+    result.offset = meanT - result.slope * meanA;
+    result.fitRmse = std::sqrt(std::max(0.0, varianceT - result.slope * covariance));
     const auto rank = static_cast<std::ptrdiff_t>(std::ceil(0.95 * n)) - 1;
     std::nth_element(errors.begin(), errors.begin() + rank, errors.end());
     result.p95 = errors[static_cast<std::size_t>(rank)];
     return result;
+}
+
+double noiseCorrected(double rmse, double truthNoise) {
+    return std::sqrt(std::max(0.0, rmse * rmse - truthNoise * truthNoise));
 }
 
 }  // namespace crevice

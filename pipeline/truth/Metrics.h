@@ -17,10 +17,17 @@ struct MapMetrics {
     double correlation = 0;  ///< Pearson: ⟨(a - ⟨a⟩)(t - ⟨t⟩)⟩ / (σa σt); 0 when either is constant
     double skill = 0;    ///< 1 - ⟨e²⟩ / σt²: 0 = as good as the truth's mean everywhere; 0 when t is constant
     double ofWhite = 0;  ///< RMSE over that of an all-white map, √⟨(1 - t)²⟩; 0 when the truth is all white
+    double white = 0;    ///< RMSE of an all-white map
+    double slope = 0;    ///< Of the best fit a·slope + offset ≈ t (least squares); 0 when a is constant
+    double offset = 0;
+    double fitRmse = 0;  ///< What the best fit leaves: √(⟨e²⟩ of the fit), σt √(1 - r²)
 };
 
 /// `isCounted` selects values (not 0); empty = all. All spans have one length; what is not finite in `map` counts as 0.
 MapMetrics measureMap(std::span<const float> map, std::span<const float> truth,
                       std::span<const std::uint8_t> isCounted = {});
+
+/// RMSE² without the truth's own noise (its standard error): √max(0, rmse² - noise²).
+double noiseCorrected(double rmse, double truthNoise);
 
 }  // namespace crevice

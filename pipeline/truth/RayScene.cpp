@@ -139,6 +139,8 @@ RayScene::~RayScene() = default;
 
 float RayScene::diagonal() const { return impl_->diagonal; }
 
+const Scene& RayScene::source() const { return *impl_->source; }
+
 SurfaceHit RayScene::Impl::describe(const RTCRayHit& found, const glm::vec3& direction) const {
     const Solid& solid = solids[found.hit.geomID];
     const std::uint32_t primitive = found.hit.primID;

@@ -46,6 +46,7 @@ public:
     float findDistance(const Ray& ray) const;
     /// Of the scene's bounding box.
     float diagonal() const;
+    const Scene& source() const;
 
 private:
     struct Impl;

@@ -3,6 +3,7 @@
 #include "truth/Sampling.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <glm/gtc/constants.hpp>
@@ -44,6 +45,46 @@ std::uint32_t secondSobol(std::uint32_t index) {
 /// 24 bits, so that the result stays below 1.
 float toUnit(std::uint32_t x) { return static_cast<float>(x >> 8) * 0x1p-24f; }
 
+/// Share of the directions of DirectionLaw::Box whose angle to the axis has a tangent of at most t. A third of the box
+/// is the pyramid on its top, two thirds are those on its sides; directions are uniform over every pyramid's base.
+double boxShareWithin(double t) {
+    constexpr double kQuarter = 0.25 * glm::pi<double>();
+    // The circle of radius t around the top's middle leaves the top there, and the sides begin to count.
+    const double past = t > 1 ? std::min(1.0, std::sqrt(t * t - 1)) : 0;
+    const double top = t <= 1 ? kQuarter * t * t : past < 1 ? past + t * t * (kQuarter - std::atan(past)) : 1;
+    const double side = past - 0.5 * (past * std::sqrt(1 + past * past) + std::asinh(past)) / std::max(t, 1.0);
+    return (top + 2 * side) / 3;
+}
+
+/// Cosines of the angles that equal shares of the directions do not exceed.
+struct BoxCosines {
+    static constexpr std::size_t kSteps = 4096;
+    std::array<float, kSteps + 1> values{};
+    BoxCosines() {
+        for (std::size_t i = 0; i <= kSteps; ++i) {
+            double low = 0, high = glm::half_pi<double>();
+            for (int round = 0; round < 60; ++round) {
+                const double middle = 0.5 * (low + high);
+                (boxShareWithin(std::tan(middle)) < double(i) / kSteps ? low : high) = middle;
+            }
+            values[i] = static_cast<float>(std::cos(0.5 * (low + high)));
+        }
+    }
+};
+
+glm::vec3 withCosine(float cosine, float turn) {
+    const float sine = std::sqrt(std::max(0.0f, 1 - cosine * cosine)), angle = 2 * glm::pi<float>() * turn;
+    return {sine * std::cos(angle), sine * std::sin(angle), cosine};
+}
+
+glm::vec3 boxDirection(const glm::vec2& uniform) {
+    static const BoxCosines kCosines;
+    const float place = uniform.x * float(BoxCosines::kSteps);
+    const auto step = std::min(static_cast<std::size_t>(place), BoxCosines::kSteps - 1);
+    const float part = place - static_cast<float>(step);
+    return withCosine(glm::mix(kCosines.values[step], kCosines.values[step + 1], part), uniform.y);
+}
+
 }  // namespace
 
 // The finaliser of MurmurHash3 (Appleby).
@@ -77,6 +118,11 @@ void makeBasis(const glm::vec3& n, glm::vec3& u, glm::vec3& v) {
 glm::vec3 cosineDirection(const glm::vec2& uniform) {
     const float radius = std::sqrt(uniform.x), angle = 2 * glm::pi<float>() * uniform.y;
     return {radius * std::cos(angle), radius * std::sin(angle), std::sqrt(std::max(0.0f, 1 - uniform.x))};
+}
+
+glm::vec3 sampleDirection(DirectionLaw law, const glm::vec2& uniform) {
+    if (law == DirectionLaw::Uniform) return withCosine(1 - uniform.x, uniform.y);
+    return law == DirectionLaw::Box ? boxDirection(uniform) : cosineDirection(uniform);
 }
 
 }  // namespace crevice

@@ -5,6 +5,8 @@
 
 #include <glm/glm.hpp>
 
+#include "truth/Falloff.h"
+
 namespace crevice {
 
 /// Mixes a number with a seed; neighbouring numbers end far apart.
@@ -19,5 +21,8 @@ void makeBasis(const glm::vec3& n, glm::vec3& u, glm::vec3& v);
 
 /// Direction around +z with density cos / pi (Malley's method: uniform on the disc, lifted to the hemisphere).
 glm::vec3 cosineDirection(const glm::vec2& uniform);
+
+/// Direction around +z by a law.
+glm::vec3 sampleDirection(DirectionLaw law, const glm::vec2& uniform);
 
 }  // namespace crevice

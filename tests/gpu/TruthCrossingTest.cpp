@@ -59,7 +59,7 @@ protected:
         for (int i = 0; i < cameras; ++i) {
             const Camera camera = randomCamera(scene.bounds(), i % 3 == 2, i % 2 == 1);
             const Image drawn = target(viewOf(camera, kSize.x, kSize.y), "viewDepth");
-            AmbientMap map = traceAmbient(rays, camera, kSize, {.radius = 1e-3f, .samples = 2});
+            AmbientMap map = traceAmbient(rays, camera, kSize, {.terms = {{1e-3f}}, .samples = 2});
             surface += map.countedCount();
             const std::vector<float> traced = map.viewDepth;
             excluded += excludeOtherSurfaces(map, drawn);

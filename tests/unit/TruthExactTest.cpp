@@ -28,7 +28,8 @@ TEST(TruthExact, PlaneIsOpenAtAnyTilt) {
             const auto hit = rays.findVisible({at + 3.0f * normal, -normal, 0, 10});
             ASSERT_TRUE(hit);
             for (const float radius : {0.01f, 1.0f, kInfinite})
-                EXPECT_EQ(traceOpenness(rays, *hit, {.radius = radius, .samples = 512}, 1).mean(), 1.0) << degrees;
+                EXPECT_EQ(traceOpenness(rays, *hit, {.terms = {{radius}}, .samples = 512}, 1).front().mean(), 1.0)
+                    << degrees;
         }
     }
 }
@@ -57,8 +58,8 @@ TEST(TruthExact, LinearAndQuadraticFalloff) {
     const double quadratic = 1 - ((1 + 2 * k * k) * std::acos(k) - 3 * k * root) / kPi;
     EXPECT_NEAR(linear, 0.8638, 5e-5);
     EXPECT_NEAR(quadratic, 0.7977, 5e-5);
-    expectOpenness(estimateOpenness(wall(), point, 1, Falloff::Linear), linear, kOffsetError);
-    expectOpenness(estimateOpenness(wall(), point, 1, Falloff::Quadratic), quadratic, kOffsetError);
+    expectOpenness(estimateOpenness(wall(), point, 1, "linear"), linear, kOffsetError);
+    expectOpenness(estimateOpenness(wall(), point, 1, "quadratic"), quadratic, kOffsetError);
 }
 
 /// Segments that two perpendicular chords cut off count their common part once.

@@ -32,17 +32,18 @@ TEST(TruthMap, FloorAtAWallSeenByACamera) {
     const Scene scene = wallScene();
     const RayScene rays(scene);
     const glm::uvec2 size(32, 32);
-    const AmbientMap map = traceAmbient(rays, cameraAbove(), size, {.radius = 1, .samples = 256});
+    const AmbientMap map = traceAmbient(rays, cameraAbove(), size, {.terms = {{1}}, .samples = 256});
     double largest = 0;
     for (std::uint32_t x = 0; x < size.x; ++x) {
         const double k = std::abs((x + 0.5) / size.x - 0.5) * 4;
         double mean = 0;
-        for (std::uint32_t y = 0; y < size.y; ++y) mean += static_cast<double>(map.openness[y * size.x + x]) / size.y;
+        for (std::uint32_t y = 0; y < size.y; ++y)
+            mean += static_cast<double>(map.layers[0].openness[y * size.x + x]) / size.y;
         largest = std::max(largest, std::abs(mean - (1 - segmentArea(k) / glm::pi<double>())));
     }
     EXPECT_LT(largest, 0.005);
-    EXPECT_GT(map.noise, 1e-4);
-    EXPECT_LT(map.noise, 0.02);
+    EXPECT_GT(map.layers[0].noise, 1e-4);
+    EXPECT_LT(map.layers[0].noise, 0.02);
     EXPECT_EQ(map.countedCount(), 32u * 32u);
     EXPECT_NEAR(map.viewDepth[0], 10, 1e-5);
 }
@@ -50,42 +51,44 @@ TEST(TruthMap, FloorAtAWallSeenByACamera) {
 TEST(TruthMap, NoiseIsTheDistanceToTheTruth) {
     const Scene scene = wallScene();
     const RayScene rays(scene);
-    const AmbientMap truth = traceAmbient(rays, cameraAbove(2), {24, 24}, {.radius = 1, .samples = 16384, .seed = 9});
+    const AmbientMap truth =
+        traceAmbient(rays, cameraAbove(2), {24, 24}, {.terms = {{1}}, .samples = 16384, .seed = 9});
     double last = 1;
     for (const std::uint32_t samples : {16u, 64u, 256u}) {
-        const AmbientMap map = traceAmbient(rays, cameraAbove(2), {24, 24}, {.radius = 1, .samples = samples});
+        const AmbientMap map = traceAmbient(rays, cameraAbove(2), {24, 24}, {.terms = {{1}}, .samples = samples});
         double squares = 0;
-        for (std::size_t i = 0; i < map.openness.size(); ++i)
-            squares += std::pow(static_cast<double>(map.openness[i] - truth.openness[i]), 2);
-        const double rmse = std::sqrt(squares / static_cast<double>(map.openness.size()));
-        EXPECT_NEAR(map.noise / rmse, 1, 0.2) << samples;
-        EXPECT_LT(map.noise, 0.5 * last);  // four times the rays: 1/2 for independent ones, these are spread better
-        last = map.noise;
+        for (std::size_t i = 0; i < map.layers[0].openness.size(); ++i)
+            squares += std::pow(static_cast<double>(map.layers[0].openness[i] - truth.layers[0].openness[i]), 2);
+        const double rmse = std::sqrt(squares / static_cast<double>(map.layers[0].openness.size()));
+        EXPECT_NEAR(map.layers[0].noise / rmse, 1, 0.2) << samples;
+        EXPECT_LT(map.layers[0].noise,
+                  0.5 * last);  // four times the rays: 1/2 for independent ones, these are spread better
+        last = map.layers[0].noise;
     }
 }
 
 TEST(TruthMap, ThreadsChangeNoBitAndSeedsDo) {
     const Scene scene = wallScene();
     const RayScene rays(scene);
-    AmbientSettings settings{.radius = 1, .falloff = Falloff::Linear, .samples = 32, .threads = 1};
+    AmbientSettings settings{.terms = {{1, findFalloff("linear")}}, .samples = 32, .threads = 1};
     const AmbientMap one = traceAmbient(rays, cameraAbove(), {37, 23}, settings);
     for (const unsigned threads : {2u, 3u, 8u, 40u}) {
         settings.threads = threads;
         const RayScene again(scene);
         const AmbientMap many = traceAmbient(again, cameraAbove(), {37, 23}, settings);
-        EXPECT_EQ(one.openness, many.openness) << threads;
+        EXPECT_EQ(one.layers[0].openness, many.layers[0].openness) << threads;
         EXPECT_EQ(one.viewDepth, many.viewDepth) << threads;
-        EXPECT_EQ(one.noise, many.noise) << threads;
+        EXPECT_EQ(one.layers[0].noise, many.layers[0].noise) << threads;
     }
     settings.seed = 2;
-    EXPECT_NE(traceAmbient(rays, cameraAbove(), {37, 23}, settings).openness, one.openness);
+    EXPECT_NE(traceAmbient(rays, cameraAbove(), {37, 23}, settings).layers[0].openness, one.layers[0].openness);
 }
 
 TEST(TruthMap, ProgressRisesOnTheCallingThread) {
     const Scene scene = wallScene();
     std::vector<float> shares;
     const auto caller = std::this_thread::get_id();
-    AmbientSettings settings{.radius = 1, .samples = 2, .threads = 1};
+    AmbientSettings settings{.terms = {{1}}, .samples = 2, .threads = 1};
     settings.progress = [&](float share) {
         EXPECT_EQ(std::this_thread::get_id(), caller);
         shares.push_back(share);
@@ -99,20 +102,20 @@ TEST(TruthMap, ProgressRisesOnTheCallingThread) {
 TEST(TruthMap, SkyIsOpenAndDoesNotCount) {
     Scene scene = whiteScene();
     addQuad(scene, {-1, 0, 1}, {1, 0, 1}, {1, 0, -1}, {-1, 0, -1});
-    const AmbientMap map = traceAmbient(RayScene(scene), cameraAbove(4), {8, 8}, {.radius = 1, .samples = 8});
+    const AmbientMap map = traceAmbient(RayScene(scene), cameraAbove(4), {8, 8}, {.terms = {{1}}, .samples = 8});
     EXPECT_EQ(map.countedCount(), 16u);
     EXPECT_EQ(map.viewDepth[0], kSkyViewDepth);
-    EXPECT_EQ(map.openness[0], 1.0f);
+    EXPECT_EQ(map.layers[0].openness[0], 1.0f);
     EXPECT_EQ(map.isCounted[0], 0);
     EXPECT_EQ(map.isCounted[8 * 4 + 4], 1);
     const AmbientMap empty = traceAmbient(RayScene(whiteScene()), cameraAbove(), {4, 4}, {});
     EXPECT_EQ(empty.countedCount(), 0u);
-    EXPECT_EQ(empty.noise, 0.0);
+    EXPECT_EQ(empty.layers[0].noise, 0.0);
 }
 
 TEST(TruthMap, OtherSurfacesAreExcluded) {
     const Scene scene = wallScene();
-    AmbientMap map = traceAmbient(RayScene(scene), cameraAbove(), {4, 4}, {.radius = 1, .samples = 2});
+    AmbientMap map = traceAmbient(RayScene(scene), cameraAbove(), {4, 4}, {.terms = {{1}}, .samples = 2});
     Image depth(4, 4, Format::R32F);
     std::memcpy(depth.pixels.data(), map.viewDepth.data(), depth.pixels.size());
     EXPECT_EQ(excludeOtherSurfaces(map, depth), 0u);

@@ -70,13 +70,13 @@ struct Estimate {
 
 /// Mean of 32 independent estimates of 512 rays each, and its standard error from their spread.
 inline Estimate estimateOpenness(const Scene& scene, const SurfaceHit& point, float radius,
-                                 Falloff falloff = Falloff::Hard) {
+                                 const char* falloff = "hard") {
     constexpr std::uint32_t kSets = 16;
     const RayScene rays(scene);
-    const AmbientSettings settings{.radius = radius, .falloff = falloff, .samples = 1024};
+    const AmbientSettings settings{.terms = {{radius, findFalloff(falloff)}}, .samples = 1024};
     std::vector<double> values;
     for (std::uint32_t seed = 0; seed < kSets; ++seed) {
-        const Openness openness = traceOpenness(rays, point, settings, seed);
+        const Openness openness = traceOpenness(rays, point, settings, seed).front();
         values.push_back(openness.first);
         values.push_back(openness.second);
     }

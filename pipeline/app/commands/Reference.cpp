@@ -11,13 +11,15 @@
 #include "app/commands/Commands.h"
 #include "app/commands/Console.h"
 #include "app/commands/OutputFiles.h"
+#include "app/commands/ReferenceTables.h"
 #include "app/commands/SceneFiles.h"
 #include "app/commands/ViewOptions.h"
 #include "core/Error.h"
+#include "core/Files.h"
 #include "core/Text.h"
 #include "flow/FrameData.h"
 #include "truth/AmbientReference.h"
-#include "truth/Metrics.h"
+#include "truth/HeightfieldReference.h"
 
 namespace crevice {
 namespace {
@@ -25,16 +27,18 @@ namespace {
 constexpr const char* kExamples =
     "Examples:\n"
     "  crevice reference crease -o truth.exr --size 160x90 --samples 64\n"
-    "  crevice reference default -o truth.png --size 160x90 --samples 64 --radius 0.5 --falloff linear\n";
+    "  crevice reference default -o truth.png --size 160x90 --samples 64 --radius 0.5 --falloff linear\n"
+    "  crevice reference crease -o truth-{radius}-{falloff}.exr --size 64x36 --samples 64 --radius 0.2 --radius 0.5 "
+    "--falloff hard --falloff matched:cocos\n";
 
-constexpr std::uint32_t kMaxSamples = 1u << 20;
+constexpr std::uint32_t kMaxSamples = 1u << 20, kMaxSlices = 4096;
 
 struct ReferenceOptions {
-    std::string scene, out, radius = "auto", falloff = "hard", samples = "1024", seed = "1", depth;
-    std::vector<std::string> measure;
+    std::string scene, out, samples = "1024", seed = "1", depth, heightfield, thickness = "0.5", slices = "64";
+    std::vector<std::string> radius, falloff, measure;
     ViewOptions view;
     ConsoleOptions console;
-    bool allowOutside = false;
+    bool allowOutside = false, noCache = false;
 };
 
 /// 0 = auto.
@@ -47,12 +51,18 @@ float readRadius(const std::string& text) {
     return static_cast<float>(radius);
 }
 
-Falloff readFalloff(const std::string& text) {
-    const std::vector<std::string> names = {"hard", "linear", "quadratic"};
-    for (std::size_t i = 0; i < names.size(); ++i) {
-        if (text == names[i]) return static_cast<Falloff>(i);
+const Falloff& readFalloff(const std::string& text) {
+    if (const Falloff* falloff = findFalloff(text)) return *falloff;
+    throw Error(fmt::format("--falloff: '{}' is not a falloff", text), didYouMean(text, falloffNames(), "falloffs"));
+}
+
+float readThickness(const std::string& text) {
+    if (text == "infinite") return std::numeric_limits<float>::infinity();
+    const double thickness = parseNumber("--thickness", text);
+    if (thickness <= 0 || thickness > 1e6) {
+        throw Error(fmt::format("--thickness: '{}' is out of range", text), "write a share of the radius, or infinite");
     }
-    throw Error(fmt::format("--falloff: '{}' is not a falloff", text), didYouMean(text, names, "falloffs"));
+    return static_cast<float>(thickness);
 }
 
 Image readMap(const char* option, const std::string& path, const glm::uvec2& size) {
@@ -63,64 +73,211 @@ Image readMap(const char* option, const std::string& path, const glm::uvec2& siz
                 "render both with the same --size");
 }
 
-/// One row of numbers per map.
-std::string measureMaps(const ReferenceOptions& options, const std::vector<Image>& images, const AmbientMap& truth) {
-    std::string text = fmt::format("{:>8} {:>8} {:>8} {:>8} {:>8} {:>8} {:>8}  map\n", "rmse", "mae", "bias", "p95",
-                                   "r", "skill", "of white");
-    for (std::size_t i = 0; i < images.size(); ++i) {
-        std::vector<float> values;
-        for (std::uint32_t y = 0; y < truth.size.y; ++y) {
-            for (std::uint32_t x = 0; x < truth.size.x; ++x) values.push_back(images[i].at(x, y).x);
-        }
-        const MapMetrics m = measureMap(values, truth.openness, truth.isCounted);
-        text += fmt::format("{:8.4f} {:8.4f} {:+8.4f} {:8.4f} {:8.4f} {:8.4f} {:8.4f}  {}\n", m.rmse, m.mae, m.bias,
-                            m.p95, m.correlation, m.skill, m.ofWhite, options.measure[i]);
+std::vector<float> redChannel(const Image& image) {
+    std::vector<float> values;
+    for (std::uint32_t y = 0; y < image.height; ++y) {
+        for (std::uint32_t x = 0; x < image.width; ++x) values.push_back(image.at(x, y).x);
     }
+    return values;
+}
+
+/// A map to make: its radius as it was written, for the name of its file.
+struct Wanted {
+    std::string radiusText;
+    AmbientTerm term;
+};
+
+std::vector<Wanted> readWanted(const ReferenceOptions& options) {
+    const std::vector<std::string> radii = options.radius.empty() ? std::vector<std::string>{"auto"} : options.radius;
+    const std::vector<std::string> falloffs =
+        options.falloff.empty() ? std::vector<std::string>{"hard"} : options.falloff;
+    std::vector<Wanted> wanted;
+    for (const std::string& radius : radii) {
+        for (const std::string& falloff : falloffs)
+            wanted.push_back({radius, {readRadius(radius), &readFalloff(falloff)}});
+    }
+    return wanted;
+}
+
+std::string replaceAll(std::string text, std::string_view from, std::string_view to) {
+    for (std::size_t at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size()))
+        text.replace(at, from.size(), to);
     return text;
 }
 
-AmbientMap trace(const ReferenceOptions& options, const ViewChoice& view, AmbientSettings settings) {
+/// "truth-{radius}-{falloff}.exr" with the names of a map.
+std::string nameOf(const std::string& pattern, const Wanted& wanted) {
+    const std::string falloff = replaceAll(wanted.term.falloff->name, ":", "-");
+    return replaceAll(replaceAll(pattern, "{radius}", wanted.radiusText), "{falloff}", falloff);
+}
+
+/// One name per map. Throws Error when two would get the same.
+std::vector<std::string> namesOf(const char* option, const std::string& pattern, const std::vector<Wanted>& wanted) {
+    std::vector<std::string> names;
+    for (const Wanted& one : wanted) {
+        names.push_back(nameOf(pattern, one));
+        if (std::count(names.begin(), names.end(), names.back()) > 1) {
+            throw Error(fmt::format("{}: two maps would both be written to '{}'", option, names.back()),
+                        "name them by what differs: truth-{radius}-{falloff}.exr");
+        }
+        checkPicturePath(option, names.back());
+    }
+    return names;
+}
+
+/// All that is checked before anything is loaded.
+struct Request {
+    ViewChoice view;
+    std::vector<Wanted> wanted;
+    std::vector<Wanted> radii{};  ///< One per radius: the heightfield knows the hard falloff alone.
+    std::vector<std::string> names{}, heightfieldNames{};
+    AmbientSettings settings{};
+    HeightfieldSettings heightfield{};
+    std::vector<std::vector<float>> measured{};
+    Image depth{};
+};
+
+Request readRequest(const ReferenceOptions& options) {
+    if (options.scene.empty()) throw Error("no scene given", "name one: crevice reference crease -o truth.exr");
+    if (options.out.empty()) throw Error("no output given", "say where the map goes: -o truth.exr");
+    Request request{.view = readView(options.view), .wanted = readWanted(options)};
+    request.names = namesOf("-o", options.out, request.wanted);
+    for (const Wanted& one : request.wanted) {
+        const bool known = std::any_of(request.radii.begin(), request.radii.end(),
+                                       [&](const Wanted& other) { return other.radiusText == one.radiusText; });
+        if (!known) request.radii.push_back({one.radiusText, {one.term.radius, &hardFalloff()}});
+    }
+    if (!options.heightfield.empty())
+        request.heightfieldNames = namesOf("--heightfield", options.heightfield, request.radii);
+    request.settings.samples = parseCount("--samples", options.samples, 2, kMaxSamples);
+    request.settings.seed = parseCount("--seed", options.seed, 0, std::numeric_limits<std::uint32_t>::max());
+    if (!options.noCache) request.settings.cache = cacheFolder("truth");
+    request.heightfield.thickness = readThickness(options.thickness);
+    request.heightfield.slices = parseCount("--slices", options.slices, 1, kMaxSlices);
+    for (const std::string& path : options.measure)
+        request.measured.push_back(redChannel(readMap("--measure", path, request.view.size)));
+    if (!options.depth.empty()) request.depth = readMap("--depth", options.depth, request.view.size);
+    return request;
+}
+
+/// What one run yields.
+struct Traced {
+    Camera camera;
+    AmbientMap map{};
+    std::vector<std::vector<float>> heightfields{};  ///< As Request::radii; empty when not asked for.
+};
+
+void noteLayers(const Log& log, const Request& request, const AmbientMap& map) {
+    const double sky = 100 - 100 * static_cast<double>(map.countedCount()) / (double(map.size.x) * map.size.y);
+    for (std::size_t i = 0; i < map.layers.size(); ++i) {
+        const AmbientLayer& layer = map.layers[i];
+        log.note(fmt::format("radius {:.4g}{}, {}{} rays a pixel, standard error {:.2g}, {:.1f} % sky{}",
+                             layer.term.radius, request.wanted[i].radiusText == "auto" ? " (auto)" : "",
+                             layer.term.falloff == &hardFalloff() ? "" : fmt::format("{}, ", layer.term.falloff->name),
+                             request.settings.samples, layer.noise, sky, map.fromCache ? ", from the cache" : ""));
+    }
+}
+
+Traced trace(const ReferenceOptions& options, Request& request) {
     Progress progress(options.console.quiet);
     const Log log = makeLog(options.console, progress);
     const AssetRoots roots = AssetRoots::standard();
     progress.show("loading …");
     const Scene scene = loadSceneFile(findScene(roots, options.scene), roots, log, options.allowOutside);
-    const Camera camera = resolveCamera(view, scene);
-    const RayScene rays(scene);
-    const bool isAuto = settings.radius <= 0;
-    if (isAuto) settings.radius = std::max(kAutoLength * rays.diagonal(), 1e-6f);
+    Traced traced{.camera = resolveCamera(request.view, scene)};
+    const float automatic = std::max(kAutoLength * scene.bounds().diagonal(), 1e-6f);
+    for (std::vector<Wanted>* list : {&request.wanted, &request.radii}) {
+        for (Wanted& one : *list) {
+            if (one.term.radius <= 0) one.term.radius = automatic;
+        }
+    }
+    AmbientSettings& settings = request.settings;
+    settings.terms.clear();
+    for (const Wanted& one : request.wanted) settings.terms.push_back(one.term);
     settings.progress = [&](float share) { progress.show(fmt::format("tracing: {:.0f} %", 100 * share)); };
-    AmbientMap map = traceAmbient(rays, camera, view.size, settings);
-    log.note(fmt::format("radius {:.4g}{}, {} rays a pixel, standard error {:.2g}, {:.1f} % sky", settings.radius,
-                         isAuto ? " (auto)" : "", settings.samples, map.noise,
-                         100 - 100 * static_cast<double>(map.countedCount()) / (double(view.size.x) * view.size.y)));
-    return map;
+    traced.map = traceAmbient(scene, traced.camera, request.view.size, settings);
+    noteLayers(log, request, traced.map);
+    if (request.heightfieldNames.empty()) return traced;
+    HeightfieldSettings& heightfield = request.heightfield;
+    heightfield.seed = settings.seed;
+    heightfield.progress = [&](float share) { progress.show(fmt::format("heightfield: {:.0f} %", 100 * share)); };
+    for (const Wanted& one : request.radii) {
+        heightfield.radius = one.term.radius;
+        traced.heightfields.push_back(
+            traceHeightfield({request.view.size, traced.camera, traced.map.viewDepth, traced.map.normal}, heightfield));
+    }
+    return traced;
+}
+
+/// The heightfield of a layer's radius; empty when there is none or the falloff is another.
+std::span<const float> heightfieldOf(const Request& request, const Traced& traced, std::size_t layer) {
+    if (traced.heightfields.empty() || !request.wanted[layer].term.falloff->isHard()) return {};
+    for (std::size_t i = 0; i < request.radii.size(); ++i) {
+        if (request.radii[i].radiusText == request.wanted[layer].radiusText) return traced.heightfields[i];
+    }
+    return {};
+}
+
+void printTables(const ReferenceOptions& options, const Request& request, const Traced& traced) {
+    for (std::size_t i = 0; i < traced.map.layers.size(); ++i) {
+        const AmbientTerm& term = request.wanted[i].term;
+        if (request.wanted.size() > 1)
+            print(fmt::format("against radius {:.4g}, {}:\n", term.radius, term.falloff->name));
+        std::vector<MeasuredMap> maps;
+        for (std::size_t k = 0; k < request.measured.size(); ++k)
+            maps.push_back({options.measure[k], request.measured[k]});
+        print(measureTables(traced.map, i, traced.camera, maps, heightfieldOf(request, traced, i)));
+    }
+}
+
+Image toImage(const glm::uvec2& size, const std::vector<float>& values) {
+    Image image(size.x, size.y, Format::R32F);
+    const auto bytes = std::as_bytes(std::span(values));
+    std::copy(bytes.begin(), bytes.end(), image.pixels.begin());
+    return image;
 }
 
 int runReference(const ReferenceOptions& options) {
-    if (options.scene.empty()) throw Error("no scene given", "name one: crevice reference crease -o truth.exr");
-    if (options.out.empty()) throw Error("no output given", "say where the map goes: -o truth.exr");
-    checkPicturePath("-o", options.out);
-    const ViewChoice view = readView(options.view);
-    AmbientSettings settings{.radius = readRadius(options.radius), .falloff = readFalloff(options.falloff)};
-    settings.samples = parseCount("--samples", options.samples, 2, kMaxSamples);
-    settings.seed = parseCount("--seed", options.seed, 0, std::numeric_limits<std::uint32_t>::max());
-    std::vector<Image> measured;
-    for (const std::string& path : options.measure) measured.push_back(readMap("--measure", path, view.size));
-    Image depth;
-    if (!options.depth.empty()) depth = readMap("--depth", options.depth, view.size);
-
-    AmbientMap map = trace(options, view, settings);
+    Request request = readRequest(options);
+    Traced traced = trace(options, request);
     if (!options.depth.empty()) {
-        const std::size_t excluded = excludeOtherSurfaces(map, depth);
+        const std::size_t excluded = excludeOtherSurfaces(traced.map, request.depth);
         print(fmt::format("{} of {} pixels show another surface in '{}' and do not count\n", excluded,
-                          std::size_t(view.size.x) * view.size.y, options.depth));
+                          std::size_t(request.view.size.x) * request.view.size.y, options.depth));
     }
-    if (!measured.empty()) print(measureMaps(options, measured, map));
+    if (!request.measured.empty() || !traced.heightfields.empty()) printTables(options, request, traced);
     OutputFiles files;
-    files.add(options.out, map.toImage());
+    for (std::size_t i = 0; i < request.names.size(); ++i) files.add(request.names[i], traced.map.toImage(i));
+    for (std::size_t i = 0; i < request.heightfieldNames.size(); ++i)
+        files.add(request.heightfieldNames[i], toImage(request.view.size, traced.heightfields[i]));
     for (const std::filesystem::path& path : files.commit()) print(path.string() + "\n");
     return 0;
+}
+
+void addOcclusionOptions(CLI::App& command, ReferenceOptions& options) {
+    const auto several = [&](const char* name, std::vector<std::string>& values, const char* type, const char* help) {
+        command.add_option(name, values, help)->type_name(type)->group("Occlusion")->allow_extra_args(false);
+    };
+    several("--radius", options.radius, "LENGTH",
+            "How far occluders reach (repeatable); auto = 1/40 of the scene's diagonal, the default");
+    several("--falloff", options.falloff, "NAME",
+            "What an occluder at a share x of the radius weighs (repeatable): hard 1, the default, linear 1-x, "
+            "quadratic 1-x², or matched:TECHNIQUE, see docs/reference.md");
+    const auto add = [&](const char* name, std::string& value, const char* type, const char* help) {
+        command.add_option(name, value, help)->type_name(type)->group("Occlusion")->capture_default_str();
+    };
+    add("--samples", options.samples, "N", "Rays per pixel; powers of two are spread best");
+    add("--seed", options.seed, "N", "Chooses the directions");
+    command.add_flag("--no-cache", options.noCache, "Trace even when the answer is known, and do not keep it")
+        ->group("Occlusion");
+    command.add_option("--heightfield", options.heightfield, "Map of what the depth buffer alone tells, .exr or .png")
+        ->type_name("OUT")
+        ->group("Heightfield");
+    const auto addHeightfield = [&](const char* name, std::string& value, const char* type, const char* help) {
+        command.add_option(name, value, help)->type_name(type)->group("Heightfield")->capture_default_str();
+    };
+    addHeightfield("--thickness", options.thickness, "SHARE", "Of what is behind a texel, in radii; or infinite");
+    addHeightfield("--slices", options.slices, "N", "Half-planes around each pixel");
 }
 
 }  // namespace
@@ -130,16 +287,11 @@ void addReferenceCommand(CLI::App& program, Action& action) {
     const auto options = std::make_shared<ReferenceOptions>();
     command->add_option("scene", options->scene, "File (.gltf, .glb, .scene.json) or name of a shipped scene")
         ->type_name("SCENE");
-    command->add_option("-o,--out", options->out, "Map to write, .exr (floats) or .png")->type_name("OUT");
-    const auto add = [&](const char* name, std::string& value, const char* type, const char* help) {
-        command->add_option(name, value, help)->type_name(type)->group("Occlusion")->capture_default_str();
-    };
-    add("--radius", options->radius, "LENGTH", "How far occluders reach; auto = 1/40 of the scene's diagonal");
-    add("--falloff", options->falloff, "NAME",
-        "What an occluder at a share x of the radius weighs: hard 1, linear "
-        "1-x, quadratic 1-x²");
-    add("--samples", options->samples, "N", "Rays per pixel; powers of two are spread best");
-    add("--seed", options->seed, "N", "Chooses the directions");
+    command
+        ->add_option("-o,--out", options->out,
+                     "Map to write, .exr (floats) or .png; {radius} and {falloff} in it name several")
+        ->type_name("OUT");
+    addOcclusionOptions(*command, *options);
     command->add_option("--measure", options->measure, "Map of the same view to compare with it (repeatable)")
         ->type_name("MAP")
         ->allow_extra_args(false);

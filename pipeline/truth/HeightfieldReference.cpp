@@ -1,0 +1,186 @@
+// Slices through the view ray as in GTAO (Jimenez et al. 2016), each a fan of directions that columns of the depth
+// buffer close, weighted by |sin h| cos(h - gamma) and by the slice's Jacobian v_z/|o|² (screen angle to azimuth).
+#include "truth/HeightfieldReference.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cassert>
+#include <cmath>
+#include <thread>
+
+#include <glm/gtc/constants.hpp>
+
+#include "truth/DepthSurface.h"
+#include "truth/DirectionFan.h"
+#include "truth/Sampling.h"
+
+namespace crevice {
+namespace {
+
+constexpr float kLargestAngle = 1.5f;  // between the ray to the point and the last one looked at, radians
+constexpr float kPerPixel = 2;         // steps
+
+/// A plane through the view ray: x along `across`, y towards the viewer, the point at the origin.
+struct Slice {
+    glm::vec3 across{0};  ///< View space, unit length.
+    glm::vec2 pixels{0};  ///< Unit step on the screen.
+    float jacobian = 1;
+    float gamma = 0, length = 1;  ///< Of the projected normal: angle from the view ray towards `across`, and length.
+};
+
+struct Point {
+    glm::vec2 pixel{0};
+    glm::vec3 position{0}, normal{0}, toViewer{0};  ///< View space.
+    float distance = 0;                             ///< To the camera; 0 = orthographic.
+};
+
+Slice makeSlice(const Point& point, float angle) {
+    const glm::vec3 screen(std::cos(angle), std::sin(angle), 0);
+    const glm::vec3 across = screen - glm::dot(screen, point.toViewer) * point.toViewer;
+    const float squared = glm::dot(across, across);
+    Slice slice;
+    slice.across = across / std::sqrt(squared);
+    slice.pixels = {screen.x, -screen.y};
+    slice.jacobian = point.toViewer.z / squared;
+    const glm::vec2 normal(glm::dot(point.normal, slice.across), glm::dot(point.normal, point.toViewer));
+    slice.length = glm::length(normal);
+    slice.gamma = std::atan2(normal.x, normal.y);
+    return slice;
+}
+
+/// How far, in pixels, view rays come within the radius on that side, and are on the screen.
+float reachPixels(const DepthSurface& surface, const Point& point, const Slice& slice, float side, float radius) {
+    const glm::vec2 step = side * slice.pixels;
+    float reach = surface.pixelsToBorder(point.pixel, step);
+    if (point.distance <= 0) return std::min(reach, radius * surface.pixelsPerUnit());
+    const float angle =
+        radius < point.distance ? std::min(std::asin(radius / point.distance), kLargestAngle) : kLargestAngle;
+    const glm::vec3 last = -std::cos(angle) * point.toViewer + side * std::sin(angle) * slice.across;
+    if (last.z >= -1e-4f) return reach;
+    return std::min(reach, glm::length(surface.project(last) - point.pixel));
+}
+
+class Tracer {
+public:
+    Tracer(const DepthSurface& surface, const HeightfieldSettings& settings) : surface_(surface), settings_(settings) {}
+
+    float openness(const Point& point, std::uint32_t seed) {
+        double open = 0, whole = 0;
+        const glm::vec2 jitter = scrambledSobol(0, seed);
+        for (std::uint32_t i = 0; i < settings_.slices; ++i) {
+            const float turn = (static_cast<float>(i) + jitter.x) / static_cast<float>(settings_.slices);
+            const Slice slice = makeSlice(point, glm::pi<float>() * turn);
+            const glm::vec2 dither = scrambledSobol(i + 1, seed);
+            fan_.clear(dither.x);
+            march(point, slice, 1, dither.y);
+            march(point, slice, -1, dither.y);
+            const auto weight = static_cast<double>(slice.jacobian * slice.length);
+            const DirectionFan::Shares shares = fan_.measure(slice.gamma);
+            open += weight * shares.open;
+            whole += weight * shares.whole;
+        }
+        return whole > 0 ? static_cast<float>(open / whole) : 1.0f;
+    }
+
+private:
+    void march(const Point& point, const Slice& slice, float side, float jitter) {
+        const float reach = reachPixels(surface_, point, slice, side, settings_.radius);
+        const float count = std::clamp(std::ceil(kPerPixel * reach), 1.0f, static_cast<float>(settings_.steps));
+        // Even steps where they are short enough, else the first is half a pixel and they grow.
+        const float exponent =
+            kPerPixel * reach <= count ? 1 : std::log(kPerPixel * reach) / std::log(std::max(count, 2.0f));
+        Column last;
+        for (float k = jitter; k < count; k += 1) {
+            const float share = k / count;
+            const float pixels = reach * (exponent == 1 ? share : std::pow(share, exponent));
+            const glm::vec2 pixel = point.pixel + side * pixels * slice.pixels;
+            const DepthSurface::Sample sample = surface_.at(pixel);
+            Column column;
+            if (!sample.isSky) column = makeColumn(point, slice, surface_.position(pixel, sample.depth));
+            column.texel = sample;
+            if (column.closes) close(side, column, last);
+            last = column;
+        }
+    }
+
+    /// What a sample hides, in the slice's plane.
+    struct Column {
+        bool closes = false;
+        glm::vec2 front{0}, back{0};
+        DepthSurface::Sample texel;
+    };
+
+    Column makeColumn(const Point& point, const Slice& slice, const glm::vec3& position) const {
+        const glm::vec3 offset = position - point.position;
+        Column column;
+        column.front = {glm::dot(offset, slice.across), glm::dot(offset, point.toViewer)};
+        const float radius = settings_.radius;
+        if (std::isinf(settings_.thickness)) {
+            column.closes = glm::dot(column.front, column.front) < radius * radius;
+            column.back = {column.front.x * 1e-6f, -radius};
+            return column;
+        }
+        const glm::vec2 away =
+            point.distance > 0 ? glm::normalize(column.front - glm::vec2(0, point.distance)) : glm::vec2(0, -1);
+        // The part of front + t·away, 0 ≤ t ≤ thickness, inside the ball.
+        const float half = glm::dot(column.front, away);
+        const float root = half * half - glm::dot(column.front, column.front) + radius * radius;
+        if (root <= 0) return column;
+        const float from = std::max(0.0f, -half - std::sqrt(root));
+        const float to = std::min(settings_.thickness * radius, -half + std::sqrt(root));
+        if (to <= from) return column;
+        column.closes = true;
+        column.back = column.front + to * away;
+        column.front += from * away;
+        return column;
+    }
+
+    void close(float side, const Column& column, const Column& last) {
+        fan_.close(side, column.front, column.back);
+        if (!last.closes || !surface_.isContinuous(last.texel, column.texel)) return;
+        // One surface: what lies between the samples is solid too.
+        fan_.close(side, column.front, last.back);
+        fan_.close(side, last.front, column.back);
+    }
+
+    const DepthSurface& surface_;
+    const HeightfieldSettings& settings_;
+    DirectionFan fan_;
+};
+
+}  // namespace
+
+std::vector<float> traceHeightfield(const HeightfieldInput& input, const HeightfieldSettings& settings) {
+    const glm::uvec2 size = input.size;
+    assert(input.viewDepth.size() == std::size_t(size.x) * size.y && input.normal.size() == input.viewDepth.size());
+    const DepthSurface surface(input);
+    const glm::mat3 toView(input.camera.view);
+    std::vector<float> map(input.viewDepth.size(), 1.0f);
+    std::atomic<std::uint32_t> nextRow{0};
+    const auto work = [&](bool reports) {
+        Tracer tracer(surface, settings);
+        for (std::uint32_t y = nextRow++; y < size.y; y = nextRow++) {
+            if (reports && settings.progress) settings.progress(static_cast<float>(y) / static_cast<float>(size.y));
+            for (std::uint32_t x = 0; x < size.x; ++x) {
+                const std::size_t i = std::size_t(y) * size.x + x;
+                if (surface.isSky(i)) continue;
+                Point point;
+                point.pixel = glm::vec2(x, y) + 0.5f;
+                point.position = surface.position(point.pixel, input.viewDepth[i]);
+                point.normal = toView * input.normal[i];
+                point.distance = input.camera.orthographic ? 0 : glm::length(point.position);
+                point.toViewer = input.camera.orthographic ? glm::vec3(0, 0, 1) : -point.position / point.distance;
+                map[i] = tracer.openness(point, hashWithSeed(static_cast<std::uint32_t>(i), settings.seed));
+            }
+        }
+    };
+    const unsigned threads = settings.threads ? settings.threads : std::max(1u, std::thread::hardware_concurrency());
+    {
+        std::vector<std::jthread> helpers;
+        for (unsigned i = 1; i < threads; ++i) helpers.emplace_back(work, false);
+        work(true);
+    }
+    return map;
+}
+
+}  // namespace crevice
