@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace crevice {
@@ -31,15 +32,31 @@ private:
     std::uint64_t state_;
 };
 
-double ladder(double t) { return 0.1 + 0.9 * t * t; }
+double ladder(double t, double first = 0.1) { return first + (1 - first) * t * t; }
 
 double fraction(double x) { return x - std::floor(x); }
 
-glm::dvec3 articleDirection(Pcg32& random) {
-    const double x = random.unit() * 2 - 1;
-    const double y = random.unit() * 2 - 1;
-    const double z = random.unit() + 0.01;
-    return glm::dvec3(x, y, z) / std::sqrt(x * x + y * y + z * z);
+/// A point of a box, pulled onto the hemisphere; `lift` keeps it above the plane. Without it the point may be 0: drawn
+/// anew.
+glm::dvec3 boxDirection(Pcg32& random, double lift) {
+    for (;;) {
+        const double x = random.unit() * 2 - 1;
+        const double y = random.unit() * 2 - 1;
+        const double z = random.unit() + lift;
+        const double length = std::sqrt(x * x + y * y + z * z);
+        if (length > 1e-3) return glm::dvec3(x, y, z) / length;
+    }
+}
+
+/// Uniform in the unit ball, by rejection.
+glm::dvec3 ballPoint(Pcg32& random) {
+    for (;;) {
+        const double x = random.unit() * 2 - 1;
+        const double y = random.unit() * 2 - 1;
+        const double z = random.unit() * 2 - 1;
+        const double squared = x * x + y * y + z * z;
+        if (squared <= 1 && squared > 1e-6) return {x, y, z};
+    }
 }
 
 /// Malley's method: uniform on the disc, lifted to the hemisphere, is cosine-weighted. `kMinZ` keeps samples off the
@@ -49,6 +66,36 @@ glm::dvec3 cosineDirection(double u, double v) {
     const double r = std::sqrt(u * (1 - kMinZ * kMinZ));
     const double phi = 6.283185307179586 * v;
     return {r * std::cos(phi), r * std::sin(phi), std::sqrt(1 - r * r)};
+}
+
+/// Share of lengths U · (0.1 + 0.9 V²) up to x: the mean over V of min(1, x / (0.1 + 0.9 V²)).
+double learnOpenGlShare(double x) {
+    const double full = std::sqrt(std::clamp((x - 0.1) / 0.9, 0.0, 1.0));
+    return full + x / 0.3 * (std::atan(3.0) - std::atan(3 * full));
+}
+
+double learnOpenGlLength(double share) {
+    double low = 0, high = 1;
+    for (int i = 0; i < 40; ++i) {
+        const double middle = 0.5 * (low + high);
+        (learnOpenGlShare(middle) < share ? low : high) = middle;
+    }
+    return low;
+}
+
+glm::dvec3 ownSample(SsaoKernelKind kind, Pcg32& random, double t) {
+    switch (kind) {
+        case SsaoKernelKind::Crytek:
+            return ballPoint(random);
+        case SsaoKernelKind::LearnOpenGl: {
+            const glm::dvec3 direction = boxDirection(random, 0);
+            return direction * (random.unit() * ladder(t));
+        }
+        case SsaoKernelKind::Songjihu:
+            return boxDirection(random, 0) * ladder(t, 0.01);
+        default:
+            return boxDirection(random, 0.01) * ladder(t);
+    }
 }
 
 /// Steps of 2^-20: libraries whose cosines differ in the last bit still give the same kernel.
@@ -63,13 +110,44 @@ void makeSsaoKernel(SsaoKernelKind kind, std::uint32_t seed, std::span<glm::vec4
     const double shiftV = random.unit();
     for (std::size_t i = 0; i < samples.size(); ++i) {
         const auto index = static_cast<double>(i);
-        if (kind == SsaoKernelKind::Article) {
-            samples[i] = rounded(articleDirection(random) * ladder(index / count));
+        if (kind != SsaoKernelKind::Stratified) {
+            samples[i] = rounded(ownSample(kind, random, index / count));
         } else {
             // R2: multiples of 1/p and 1/p², p the plastic number.
             const double u = fraction(shiftU + index * 0.7548776662466927);
             const double v = fraction(shiftV + index * 0.5698402909980532);
             samples[i] = rounded(cosineDirection(u, v) * ladder((index + 0.5) / count));
+        }
+    }
+}
+
+double ssaoLengthQuantile(SsaoKernelKind kind, double x) {
+    switch (kind) {
+        case SsaoKernelKind::Crytek:
+            return std::cbrt(x);
+        case SsaoKernelKind::LearnOpenGl:
+            return learnOpenGlLength(x);
+        case SsaoKernelKind::Songjihu:
+            return ladder(x, 0.01);
+        default:
+            return ladder(x);
+    }
+}
+
+void makeSsaoRays(SsaoKernelKind kind, std::uint32_t seed, std::size_t pointsPerRay, std::span<glm::vec4> samples) {
+    constexpr double kGolden = 0.6180339887498949;
+    Pcg32 random(seed);
+    const double turn = random.unit();
+    const std::size_t rays = samples.size() / pointsPerRay;
+    for (std::size_t ray = 0; ray < rays; ++ray) {
+        const auto index = static_cast<double>(ray);
+        const auto count = static_cast<double>(rays);
+        const glm::dvec3 direction = cosineDirection((index + 0.5) / count, fraction(turn + index * kGolden));
+        // Every ray starts elsewhere between its first length and its second: together the rays see all lengths.
+        const double start = fraction(0.5 / count + index * kGolden);
+        for (std::size_t point = 0; point < pointsPerRay; ++point) {
+            const double share = (static_cast<double>(point) + start) / static_cast<double>(pointsPerRay);
+            samples[ray * pointsPerRay + point] = rounded(direction * ssaoLengthQuantile(kind, share));
         }
     }
 }

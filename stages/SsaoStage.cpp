@@ -1,5 +1,7 @@
 // Ambient occlusion from the G-buffer: one full-screen draw into cc_ssaoMap. Which form it has is the effect's
 // business.
+#include <algorithm>
+
 #include "SsaoKernel.h"
 #include "flow/RenderStage.h"
 
@@ -14,7 +16,7 @@ static_assert(sizeof(SsaoBlock) == 1040);
 
 enum Bake { kBakeAuto, kBakeOn, kBakeOff };
 constexpr const char* kBakeNames[] = {"auto", "on", "off"};
-constexpr const char* kKernelNames[] = {"article", "stratified"};
+constexpr const char* kKernelNames[] = {"article", "stratified", "crytek", "learnopengl", "songjihu"};
 /// Pixels x samples of a run from which constants in the shader repay the longer compile (about half a frame at
 /// 1280x720).
 constexpr std::uint64_t kBakeFrom = 30'000'000;
@@ -26,7 +28,14 @@ public:
         v.field("samples", samples_,
                 {.min = 1, .max = kSsaoMaxSamples, .help = "Kernel size; the radius ladder is made for it."});
         v.choice("kernel", kernel_, kKernelNames,
-                 {.help = "Directions: the article's, or cosine-weighted and stratified."});
+                 {.help = "Directions and lengths: the Cocos article's, cosine-weighted and stratified, or another "
+                          "technique's."});
+        v.field(
+            "rayPoints", rayPoints_,
+            {.min = 0,
+             .max = 16,
+             .help = "Samples on each of samples / rayPoints cosine-weighted rays, at the kernel's own lengths; 0 = "
+                     "points in the kernel's own directions."});
         v.choice("bake", bake_, kBakeNames,
                  {.help = "Kernel as shader constants: the same picture, faster over many pixels."});
     }
@@ -36,10 +45,18 @@ public:
         if (io.documentWrites().size() > 1) io.color(io.documentWrites()[1]);
         block_ = io.block<SsaoBlock>("CCSsao");
         draw_ = io.fullscreen("ssao");
-        const std::span<glm::vec4> kernel(data_.samples, samples_);
-        makeSsaoKernel(static_cast<SsaoKernelKind>(kernel_), seed_, kernel);
-        const bool baked = bake_ == kBakeOn || (bake_ == kBakeAuto && io.run().pixels() * samples_ >= kBakeFrom);
-        io.define(draw_, "SSAO_SAMPLES", std::to_string(samples_));
+        const auto kind = static_cast<SsaoKernelKind>(kernel_);
+        const std::uint32_t perRay = std::min(std::max(rayPoints_, 1u), samples_);
+        const std::uint32_t count = samples_ / perRay * perRay;
+        const std::span<glm::vec4> kernel(data_.samples, count);
+        if (rayPoints_ > 0) {
+            makeSsaoRays(kind, seed_, perRay, kernel);
+        } else {
+            makeSsaoKernel(kind, seed_, kernel);
+        }
+        const bool baked = bake_ == kBakeOn || (bake_ == kBakeAuto && io.run().pixels() * count >= kBakeFrom);
+        io.define(draw_, "SSAO_SAMPLES", std::to_string(count));
+        if (rayPoints_ > 0) io.define(draw_, "RAY_POINTS", std::to_string(perRay));
         io.define(draw_, "SSAO_BAKED", baked ? "1" : "0");
         io.chunk("ssao-kernel", ssaoKernelChunk(kernel));
     }
@@ -53,6 +70,7 @@ public:
 private:
     std::uint32_t seed_ = 1;
     std::uint32_t samples_ = kSsaoMaxSamples;
+    std::uint32_t rayPoints_ = 0;
     int kernel_ = static_cast<int>(SsaoKernelKind::Stratified);
     int bake_ = kBakeAuto;
     SsaoBlock data_;
