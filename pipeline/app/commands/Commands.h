@@ -23,6 +23,7 @@ void addSchemaCommand(CLI::App& program, Action& action);
 void addInfoCommand(CLI::App& program, Action& action);
 void addReferenceCommand(CLI::App& program, Action& action);
 void addCompareCommand(CLI::App& program, Action& action);
+void addBenchAoCommand(CLI::App& program, Action& action);
 
 // Below `effects`.
 void addEffectsListCommand(CLI::App& effects, Action& action);

@@ -32,6 +32,7 @@ void addCommands(CLI::App& program, Action& action) {
     addInfoCommand(program, action);
     addReferenceCommand(program, action);
     addCompareCommand(program, action);
+    addBenchAoCommand(program, action);
 }
 
 int parseAndRun(int argc, char** argv) {
