@@ -9,50 +9,78 @@
 namespace crevice {
 namespace {
 
-constexpr float kSkyShare = 0.999f;      // of kSkyViewDepth
-constexpr float kMeetTolerance = 0.02f;  // of the depth; of the view's height under parallel projection
+constexpr float kSkyDepth = 0.999f * kSkyViewDepth;
+/// Steepest piece of plane that is taken from a normal alone: the share of the depth that it may change in a pixel.
+constexpr float kSteepest = 0.5f;
 
 float smaller(float a, float b) { return std::abs(a) < std::abs(b) ? a : b; }
 
 }  // namespace
 
 DepthSurface::DepthSurface(const HeightfieldInput& input)
-    : size_(input.size), orthographic_(input.camera.orthographic), depth_(input.viewDepth) {
+    : size_(input.size), continuity_(input.camera), texels_(input.viewDepth.size()) {
     const glm::vec2 extent(input.size);
     const Camera& camera = input.camera;
-    const float height = orthographic_ ? camera.orthoHeight : 2 * std::tan(0.5f * camera.fovY);
+    const float height = camera.orthographic ? camera.orthoHeight : 2 * std::tan(0.5f * camera.fovY);
     pixelsPerUnit_ = extent.y / height;
-    farthest_ = kSkyShare * kSkyViewDepth;
     centre_ = 0.5f * extent * (1.0f - camera.lensShift);
-    value_.reserve(depth_.size());
-    for (const float depth : depth_) value_.push_back(toLinear(depth));
-    slope_.resize(depth_.size());
-    const auto value = [&](int x, int y) { return value_[std::size_t(y) * size_.x + x]; };
-    const auto difference = [&](int x, int y, int dx, int dy) {
-        const glm::ivec2 a(x - dx, y - dy), b(x + dx, y + dy);
-        const bool hasBefore = a.x >= 0 && a.y >= 0, hasAfter = b.x < size_.x && b.y < size_.y;
-        const float here = value(x, y);
-        const float before = hasBefore ? here - value(a.x, a.y) : 0, after = hasAfter ? value(b.x, b.y) - here : 0;
-        return hasBefore && hasAfter ? smaller(before, after) : before + after;
+    const glm::mat3 toView(camera.view);
+    for (std::size_t i = 0; i < texels_.size(); ++i) {
+        const float depth = input.viewDepth[i];
+        texels_[i] = {.depth = depth, .value = continuity_.toLinear(depth), .isSky = !(depth < kSkyDepth)};
+    }
+    for (int y = 0; y < size_.y; ++y) {
+        for (int x = 0; x < size_.x; ++x) {
+            const std::size_t i = indexOf({x, y});
+            if (texels_[i].isSky) continue;
+            const glm::vec3 normal = toView * input.normal[i];
+            texels_[i].slope = {slopeAlong({x, y}, {1, 0}, normal), slopeAlong({x, y}, {0, 1}, normal)};
+        }
+    }
+}
+
+float DepthSurface::slopeAlong(const glm::ivec2& texel, const glm::ivec2& step, const glm::vec3& normal) const {
+    const auto value = [&](const glm::ivec2& place) {
+        return texels_[indexOf(glm::clamp(place, glm::ivec2(0), size_ - 1))].value;
     };
-    for (int y = 0; y < size_.y; ++y)
-        for (int x = 0; x < size_.x; ++x)
-            slope_[std::size_t(y) * size_.x + x] = {difference(x, y, 1, 0), difference(x, y, 0, 1)};
+    const glm::ivec2 before = texel - step, after = texel + step;
+    const float here = value(texel), rise = here - value(before), next = value(after) - here;
+    const bool hasBefore =
+        before.x >= 0 && before.y >= 0 && !continuity_.breaks(value(before - step), value(before), here, value(after));
+    const bool hasAfter = after.x < size_.x && after.y < size_.y &&
+                          !continuity_.breaks(value(before), here, value(after), value(after + step));
+    if (hasBefore && hasAfter) return smaller(rise, next);
+    return hasBefore ? rise : hasAfter ? next : slopeOfPlane(texel, step, normal);
+}
+
+/// For texels without a neighbour on their surface. On a plane normal · position is constant.
+float DepthSurface::slopeOfPlane(const glm::ivec2& texel, const glm::ivec2& step, const glm::vec3& normal) const {
+    const glm::vec2 pixel = glm::vec2(texel) + 0.5f;
+    const float here = texels_[indexOf(texel)].value;
+    const glm::vec3 direction = position(pixel, 1) - (continuity_.orthographic() ? position(pixel, 0) : glm::vec3(0));
+    const glm::vec3 aside = position(pixel + glm::vec2(step), 1) - position(pixel, 1);
+    const float facing = glm::dot(normal, direction);
+    if (!(std::abs(facing) > 0)) return 0;
+    // Parallel: normal · (aside + slope·direction) = 0. Perspective: 1/z ~ normal · direction.
+    const float slope =
+        continuity_.orthographic() ? -glm::dot(normal, aside) / facing : here * glm::dot(normal, aside) / facing;
+    const float steepest = kSteepest * (continuity_.orthographic() ? 1 / pixelsPerUnit_ : here);
+    return std::clamp(slope, -steepest, steepest);
 }
 
 float DepthSurface::valueAt(const glm::ivec2& texel, const glm::vec2& pixel) const {
-    const std::size_t i = std::size_t(texel.y) * size_.x + texel.x;
-    return value_[i] + glm::dot(slope_[i], pixel - glm::vec2(texel) - 0.5f);
+    const Texel& t = texels_[indexOf(texel)];
+    return t.value + glm::dot(t.slope, pixel - glm::vec2(texel) - 0.5f);
 }
 
 DepthSurface::Sample DepthSurface::at(const glm::vec2& pixel) const {
     Sample sample;
-    sample.texel = glm::clamp(glm::ivec2(glm::floor(pixel)), glm::ivec2(0), size_ - 1);
-    const std::size_t i = std::size_t(sample.texel.y) * size_.x + sample.texel.x;
-    sample.isSky = isSky(i);
+    sample.texel = glm::clamp(glm::ivec2(pixel), glm::ivec2(0), size_ - 1);
+    const Texel& texel = texels_[indexOf(sample.texel)];
+    sample.isSky = texel.isSky;
     if (sample.isSky) return sample;
-    const float value = valueAt(sample.texel, pixel);
-    sample.depth = orthographic_ ? value : value > 0 ? 1 / value : depth_[i];
+    const float value = texel.value + glm::dot(texel.slope, pixel - glm::vec2(sample.texel) - 0.5f);
+    sample.depth = continuity_.orthographic() || value > 0 ? continuity_.toDepth(value) : texel.depth;
     return sample;
 }
 
@@ -60,14 +88,21 @@ bool DepthSurface::isContinuous(const Sample& a, const Sample& b) const {
     if (a.isSky || b.isSky) return false;
     if (a.texel == b.texel) return true;
     const glm::vec2 middle = 0.5f * glm::vec2(a.texel + b.texel) + 0.5f;
-    const float va = valueAt(a.texel, middle), vb = valueAt(b.texel, middle);
-    const float scale = orthographic_ ? static_cast<float>(size_.y) / pixelsPerUnit_ : std::max(va, vb);
-    return std::abs(va - vb) <= kMeetTolerance * scale;
+    return continuity_.meets(valueAt(a.texel, middle), valueAt(b.texel, middle));
+}
+
+DepthSurface::Line DepthSurface::lineThrough(const glm::vec2& pixel, const glm::vec2& step, const glm::vec3& across,
+                                             const glm::vec3& up) const {
+    const auto flatten = [&](const glm::vec3& v) { return glm::vec2(glm::dot(v, across), glm::dot(v, up)); };
+    const glm::vec2 start = (pixel - centre_) * glm::vec2(1, -1) / pixelsPerUnit_;
+    const glm::vec3 stepped(step * glm::vec2(1, -1) / pixelsPerUnit_, 0);
+    if (continuity_.orthographic()) return {.originStep = flatten(stepped), .direction = flatten({0, 0, -1})};
+    return {.direction = flatten({start, -1}), .directionStep = flatten(stepped)};
 }
 
 glm::vec3 DepthSurface::position(const glm::vec2& pixel, float depth) const {
     const glm::vec2 aside = (pixel - centre_) * glm::vec2(1, -1) / pixelsPerUnit_;
-    return {orthographic_ ? aside : aside * depth, -depth};
+    return {continuity_.orthographic() ? aside : aside * depth, -depth};
 }
 
 glm::vec2 DepthSurface::project(const glm::vec3& direction) const {

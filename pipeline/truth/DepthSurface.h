@@ -6,6 +6,7 @@
 
 #include <glm/glm.hpp>
 
+#include "truth/DepthContinuity.h"
 #include "truth/HeightfieldReference.h"
 
 namespace crevice {
@@ -26,24 +27,36 @@ public:
     bool isContinuous(const Sample& a, const Sample& b) const;
 
     glm::vec3 position(const glm::vec2& pixel, float depth) const;
+    /// View rays of the places pixel + s·step as seen in a plane through the view ray of `pixel`, whose axes are
+    /// `across` and `up`: origin + s·originStep + depth·(direction + s·directionStep).
+    struct Line {
+        glm::vec2 originStep{0}, direction{0}, directionStep{0};
+    };
+    Line lineThrough(const glm::vec2& pixel, const glm::vec2& step, const glm::vec3& across, const glm::vec3& up) const;
     glm::vec2 project(const glm::vec3& direction) const;  ///< Perspective: of a direction with z < 0.
-    bool isSky(std::size_t texel) const { return !(depth_[texel] < farthest_); }
+    bool isSky(std::size_t texel) const { return texels_[texel].isSky; }
     float pixelsPerUnit() const { return pixelsPerUnit_; }  ///< Orthographic: everywhere. Perspective: at depth 1.
     /// From a place on the screen along a step of length 1.
     float pixelsToBorder(const glm::vec2& pixel, const glm::vec2& step) const;
 
 private:
-    /// Straight in 1/z under perspective, in z under parallel projection: what is linear on the screen for a plane.
-    float toLinear(float depth) const { return orthographic_ ? depth : 1 / depth; }
+    std::size_t indexOf(const glm::ivec2& t) const {
+        return std::size_t(t.y) * std::size_t(size_.x) + std::size_t(t.x);
+    }
     float valueAt(const glm::ivec2& texel, const glm::vec2& pixel) const;
+    float slopeAlong(const glm::ivec2& texel, const glm::ivec2& step, const glm::vec3& normal) const;
+    float slopeOfPlane(const glm::ivec2& texel, const glm::ivec2& step, const glm::vec3& normal) const;
 
     glm::ivec2 size_;
-    bool orthographic_;
-    float pixelsPerUnit_, farthest_;
+    DepthContinuity continuity_;
+    float pixelsPerUnit_;
     glm::vec2 centre_;  ///< Pixel that the axis passes.
-    std::span<const float> depth_;
-    std::vector<float> value_;      ///< toLinear()
-    std::vector<glm::vec2> slope_;  ///< Of value_, per pixel.
+    struct Texel {
+        float depth = 0, value = 0;  ///< linear on the screen for a plane, see DepthContinuity
+        bool isSky = true;
+        glm::vec2 slope{0};  ///< Of the value, per pixel.
+    };
+    std::vector<Texel> texels_;
 };
 
 }  // namespace crevice

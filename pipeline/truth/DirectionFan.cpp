@@ -2,6 +2,7 @@
 #include "truth/DirectionFan.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include <glm/gtc/constants.hpp>
@@ -12,22 +13,43 @@ namespace {
 constexpr double kPi = glm::pi<double>();
 constexpr int kFanSide = DirectionFan::kSide;
 
-/// 0 towards the viewer, 1 across, 2 away.
-float diamondOf(const glm::vec2& v) {
-    const float x = std::abs(v.x), sum = x + std::abs(v.y);
-    if (!(sum > 0)) return 0;
-    return v.y >= 0 ? x / sum : 2 - x / sum;
-}
+/// Of a direction h: what the antiderivative needs, so that a fan costs no trigonometry per border.
+struct Border {
+    double angle = 0, cos2 = 1, sin2 = 0;
+    explicit Border(double h = 0) : angle(h), cos2(std::cos(2 * h)), sin2(std::sin(2 * h)) {}
+};
 
-double antiderivative(double h, double gamma) {
-    return 0.25 * (std::cos(gamma) - std::cos(2 * h - gamma) + 2 * h * std::sin(gamma));
-}
+/// Where bins begin.
+struct Borders {
+    std::array<Border, kFanSide + 1> values;
+    Borders() {
+        for (int bin = 0; bin <= kFanSide; ++bin) {
+            const double diamond = 2.0 * bin / kFanSide;
+            values[static_cast<std::size_t>(bin)] =
+                Border(std::atan2(diamond <= 1 ? diamond : 2 - diamond, 1 - diamond));
+        }
+    }
+};
 
-/// Angle at which a bin begins.
-double borderAngle(int bin) {
-    const double diamond = 2.0 * bin / kFanSide;
-    return diamond <= 1 ? std::atan2(diamond, 1 - diamond) : std::atan2(2 - diamond, 1 - diamond);
-}
+/// The lobe about an angle, on one side.
+struct Lobe {
+    double gamma, cosine, sine;
+    Border low, high;
+    explicit Lobe(double g)
+        : gamma(g),
+          cosine(std::cos(g)),
+          sine(std::sin(g)),
+          low(std::max(0.0, g - 0.5 * kPi)),
+          high(std::min(kPi, g + 0.5 * kPi)) {}
+    double antiderivative(const Border& h) const {
+        return 0.25 * (cosine - h.cos2 * cosine - h.sin2 * sine + 2 * h.angle * sine);
+    }
+    double between(const Border& from, const Border& to) const {
+        const Border& a = from.angle < low.angle ? low : from;
+        const Border& b = to.angle > high.angle ? high : to;
+        return a.angle < b.angle ? antiderivative(b) - antiderivative(a) : 0;
+    }
+};
 
 }  // namespace
 
@@ -36,11 +58,10 @@ void DirectionFan::clear(float dither) {
     dither_ = dither;
 }
 
-void DirectionFan::close(float side, const glm::vec2& a, const glm::vec2& b) {
+void DirectionFan::close(float side, float low, float high) {
     constexpr float kScale = 0.5f * kSide;
-    const float from = diamondOf(a) * kScale, to = diamondOf(b) * kScale;
-    const int first = std::clamp(static_cast<int>(std::min(from, to) + dither_), 0, kSide);
-    const int end = std::clamp(static_cast<int>(std::max(from, to) + dither_), 0, kSide);
+    const int first = std::clamp(static_cast<int>(low * kScale + dither_), 0, kSide);
+    const int end = std::clamp(static_cast<int>(high * kScale + dither_), 0, kSide);
     if (first >= end) return;
     auto& words = closed_[side > 0 ? 0 : 1];
     const int firstWord = first / 64, lastWord = (end - 1) / 64;
@@ -55,30 +76,31 @@ void DirectionFan::close(float side, const glm::vec2& a, const glm::vec2& b) {
     words[static_cast<std::size_t>(lastWord)] |= tail;
 }
 
+/// First bin from `bin` on that is closed or open, as asked; kSide when there is none.
+int DirectionFan::findNext(const Side& side, int bin, bool closed) {
+    while (bin < kSide) {
+        const std::uint64_t word = side[static_cast<std::size_t>(bin / 64)];
+        const std::uint64_t rest = (closed ? word : ~word) >> (bin % 64);
+        if (rest != 0) return bin + std::countr_zero(rest);
+        bin += 64 - bin % 64;
+    }
+    return kSide;
+}
+
 DirectionFan::Shares DirectionFan::measure(float gamma) const {
+    static const Borders kBorders;
     Shares shares;
-    for (int side = 0; side < 2; ++side) {
-        const double g = side == 0 ? double(gamma) : -double(gamma);
-        const double low = std::max(0.0, g - 0.5 * kPi), high = std::min(kPi, g + 0.5 * kPi);
-        if (high <= low) continue;
-        const auto& words = closed_[static_cast<std::size_t>(side)];
-        const double whole = antiderivative(high, g) - antiderivative(low, g);
+    for (std::size_t i = 0; i < closed_.size(); ++i) {
+        const Lobe lobe(i == 0 ? double(gamma) : -double(gamma));
+        if (lobe.high.angle <= lobe.low.angle) continue;
+        const double whole = lobe.between(lobe.low, lobe.high);
         shares.whole += whole;
         shares.open += whole;
-        const auto isClosed = [&](int bin) {
-            return bin < kSide && (words[static_cast<std::size_t>(bin / 64)] >> (bin % 64) & 1) != 0;
-        };
-        for (int bin = 0; bin < kSide; ++bin) {
-            if (bin % 64 == 0 && words[static_cast<std::size_t>(bin / 64)] == 0) {
-                bin += 63;
-                continue;
-            }
-            if (!isClosed(bin)) continue;
-            const int first = bin;
-            while (isClosed(bin + 1)) ++bin;
-            const double from = std::clamp(borderAngle(first), low, high);
-            const double to = std::clamp(borderAngle(bin + 1), low, high);
-            shares.open -= antiderivative(to, g) - antiderivative(from, g);
+        for (int first = findNext(closed_[i], 0, true); first < kSide;) {
+            const int end = findNext(closed_[i], first, false);
+            shares.open -= lobe.between(kBorders.values[static_cast<std::size_t>(first)],
+                                        kBorders.values[static_cast<std::size_t>(end)]);
+            first = findNext(closed_[i], end, true);
         }
     }
     return shares;

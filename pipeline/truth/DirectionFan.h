@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 
@@ -14,8 +15,15 @@ class DirectionFan {
 public:
     /// All open. `dither` in [0,1) is what is added before rounding down to a bin: the mean over many fans is exact.
     void clear(float dither);
-    /// Closes the directions between two vectors (x aside, y towards the viewer), both on one side (the sign of x).
-    void close(float side, const glm::vec2& a, const glm::vec2& b);
+    /// A direction (x aside, either side, y towards the viewer) as the fan counts: 0 towards the viewer, 1 across, 2
+    /// away.
+    static float place(const glm::vec2& direction) {
+        const float x = std::abs(direction.x), sum = x + std::abs(direction.y);
+        if (!(sum > 0)) return 0;
+        return direction.y >= 0 ? x / sum : 2 - x / sum;
+    }
+    /// Closes the directions between two places, low ≤ high, on the side of positive or negative x.
+    void close(float side, float low, float high);
 
     struct Shares {
         double open = 0, whole = 0;
@@ -29,7 +37,10 @@ public:
 private:
     static constexpr int kWords = kSide / 64;
 
-    std::array<std::array<std::uint64_t, kWords>, 2> closed_{};  ///< Of both sides, from the view ray on.
+    using Side = std::array<std::uint64_t, kWords>;
+    static int findNext(const Side& side, int bin, bool closed);
+
+    std::array<Side, 2> closed_{};  ///< Of both sides, from the view ray on.
     float dither_ = 0;
 };
 

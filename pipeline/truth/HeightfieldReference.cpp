@@ -17,8 +17,8 @@
 namespace crevice {
 namespace {
 
+constexpr float kNearest = 0.25f;      // pixels; nearer, rounding would tilt the point's own surface
 constexpr float kLargestAngle = 1.5f;  // between the ray to the point and the last one looked at, radians
-constexpr float kPerPixel = 2;         // steps
 
 /// A plane through the view ray: x along `across`, y towards the viewer, the point at the origin.
 struct Slice {
@@ -85,62 +85,88 @@ public:
 private:
     void march(const Point& point, const Slice& slice, float side, float jitter) {
         const float reach = reachPixels(surface_, point, slice, side, settings_.radius);
-        const float count = std::clamp(std::ceil(kPerPixel * reach), 1.0f, static_cast<float>(settings_.steps));
-        // Even steps where they are short enough, else the first is half a pixel and they grow.
-        const float exponent =
-            kPerPixel * reach <= count ? 1 : std::log(kPerPixel * reach) / std::log(std::max(count, 2.0f));
+        const glm::vec2 step = side * slice.pixels;
+        const float count = std::clamp(std::ceil(reach), 1.0f, static_cast<float>(settings_.steps));
+        // One step a pixel, or, where that is too many, that long at first and growing evenly.
+        const float even = std::min(1.0f, count / reach);
+        const DepthSurface::Line line = surface_.lineThrough(point.pixel, step, slice.across, point.toViewer);
+        const glm::vec2 home(0, point.distance > 0 ? point.distance : -point.position.z);
         Column last;
-        for (float k = jitter; k < count; k += 1) {
-            const float share = k / count;
-            const float pixels = reach * (exponent == 1 ? share : std::pow(share, exponent));
-            const glm::vec2 pixel = point.pixel + side * pixels * slice.pixels;
-            const DepthSurface::Sample sample = surface_.at(pixel);
+        for (float k = jitter; k < count + 1; k += 1) {
+            const float share = std::min(k / count, 1.0f);
+            const float pixels = reach * share * (even + (1 - even) * share);
+            if (pixels < kNearest) continue;
             Column column;
-            if (!sample.isSky) column = makeColumn(point, slice, surface_.position(pixel, sample.depth));
-            column.texel = sample;
-            if (column.closes) close(side, column, last);
+            column.texel = surface_.at(point.pixel + pixels * step);
+            if (!column.texel.isSky) {
+                const glm::vec2 direction = line.direction + pixels * line.directionStep;
+                column.surface = home + pixels * line.originStep + column.texel.depth * direction;
+                limit(column, direction);
+                close(side, column, last);
+            }
             last = column;
         }
     }
 
-    /// What a sample hides, in the slice's plane.
+    /// What a sample hides, in the slice's plane: the directions between two places of the fan.
     struct Column {
-        bool closes = false;
-        glm::vec2 front{0}, back{0};
+        bool closes = false, isNear = false;  ///< isNear: the surface is inside the ball.
+        glm::vec2 surface{0};
+        float low = 0, high = 0;
         DepthSurface::Sample texel;
+
+        void hide(const glm::vec2& a, const glm::vec2& b) {
+            const float placeA = DirectionFan::place(a), placeB = DirectionFan::place(b);
+            closes = true;
+            low = std::min(placeA, placeB);
+            high = std::max(placeA, placeB);
+        }
     };
 
-    Column makeColumn(const Point& point, const Slice& slice, const glm::vec3& position) const {
-        const glm::vec3 offset = position - point.position;
-        Column column;
-        column.front = {glm::dot(offset, slice.across), glm::dot(offset, point.toViewer)};
-        const float radius = settings_.radius;
+    /// The part of surface + t·direction, 0 ≤ t ≤ thickness, inside the ball.
+    void limit(Column& column, const glm::vec2& direction) const {
+        const float radius = settings_.radius, room = radius * radius - glm::dot(column.surface, column.surface);
+        column.isNear = room > 0;
         if (std::isinf(settings_.thickness)) {
-            column.closes = glm::dot(column.front, column.front) < radius * radius;
-            column.back = {column.front.x * 1e-6f, -radius};
-            return column;
+            if (column.isNear) column.hide(column.surface, {0, -radius});
+            return;
         }
-        const glm::vec2 away =
-            point.distance > 0 ? glm::normalize(column.front - glm::vec2(0, point.distance)) : glm::vec2(0, -1);
-        // The part of front + t·away, 0 ≤ t ≤ thickness, inside the ball.
-        const float half = glm::dot(column.front, away);
-        const float root = half * half - glm::dot(column.front, column.front) + radius * radius;
-        if (root <= 0) return column;
-        const float from = std::max(0.0f, -half - std::sqrt(root));
-        const float to = std::min(settings_.thickness * radius, -half + std::sqrt(root));
-        if (to <= from) return column;
-        column.closes = true;
-        column.back = column.front + to * away;
-        column.front += from * away;
-        return column;
+        const glm::vec2 away = direction / std::sqrt(glm::dot(direction, direction));
+        const float half = glm::dot(column.surface, away);
+        const float squared = half * half + room;
+        if (squared <= 0) return;
+        const float root = std::sqrt(squared);
+        const float from = std::max(0.0f, -half - root), to = std::min(settings_.thickness * radius, root - half);
+        if (to > from) column.hide(column.surface + from * away, column.surface + to * away);
     }
 
     void close(float side, const Column& column, const Column& last) {
-        fan_.close(side, column.front, column.back);
-        if (!last.closes || !surface_.isContinuous(last.texel, column.texel)) return;
-        // One surface: what lies between the samples is solid too.
-        fan_.close(side, column.front, last.back);
-        fan_.close(side, last.front, column.back);
+        if (!column.closes && !last.closes) return;
+        const Column& one = column.closes ? column : last;
+        float low = one.low, high = one.high;
+        // One surface: what lies between the samples is solid too, up to where it leaves the ball.
+        if (surface_.isContinuous(last.texel, column.texel)) {
+            if (column.closes && last.closes) {
+                low = std::min(low, last.low);
+                high = std::max(high, last.high);
+            }
+            if (column.isNear != last.isNear) {
+                const float border = DirectionFan::place(column.isNear ? borderBetween(column.surface, last.surface)
+                                                                       : borderBetween(last.surface, column.surface));
+                low = std::min(low, border);
+                high = std::max(high, border);
+            }
+        }
+        fan_.close(side, low, high);
+    }
+
+    /// Where the line from a point inside the ball to one outside leaves it.
+    glm::vec2 borderBetween(const glm::vec2& inside, const glm::vec2& outside) const {
+        const glm::vec2 way = outside - inside;
+        const float squared = glm::dot(way, way), half = glm::dot(inside, way);
+        const float room = settings_.radius * settings_.radius - glm::dot(inside, inside);
+        const float share = (std::sqrt(half * half + squared * room) - half) / squared;
+        return inside + std::clamp(share, 0.0f, 1.0f) * way;
     }
 
     const DepthSurface& surface_;
@@ -163,7 +189,7 @@ std::vector<float> traceHeightfield(const HeightfieldInput& input, const Heightf
             if (reports && settings.progress) settings.progress(static_cast<float>(y) / static_cast<float>(size.y));
             for (std::uint32_t x = 0; x < size.x; ++x) {
                 const std::size_t i = std::size_t(y) * size.x + x;
-                if (surface.isSky(i)) continue;
+                if (surface.isSky(i) || (!input.isCounted.empty() && !input.isCounted[i])) continue;
                 Point point;
                 point.pixel = glm::vec2(x, y) + 0.5f;
                 point.position = surface.position(point.pixel, input.viewDepth[i]);

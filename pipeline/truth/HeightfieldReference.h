@@ -22,7 +22,7 @@ struct HeightfieldSettings {
     /// infinity: the horizon of GTAO, texels beyond the radius ignored.
     float thickness = 0.5f;
     std::uint32_t slices = 64;  ///< Half-planes through the view ray, two sides each.
-    std::uint32_t steps = 128;  ///< Most per side; at most two a pixel are taken.
+    std::uint32_t steps = 128;  ///< Most per side; one a pixel is enough.
     std::uint32_t seed = 1;
     unsigned threads = 0;                   ///< 0 = as many as the machine has. The result does not depend on it.
     std::function<void(float)> progress{};  ///< Share done, called from the calling thread.
@@ -31,9 +31,10 @@ struct HeightfieldSettings {
 /// Row by row from the top; sky is 1.
 struct HeightfieldInput {
     glm::uvec2 size{0};
-    Camera camera;                      ///< With near and far, as the depth was made.
-    std::span<const float> viewDepth;   ///< Linear; sky = kSkyViewDepth.
-    std::span<const glm::vec3> normal;  ///< World space, unit length; not read where the depth is sky.
+    Camera camera;                              ///< With near and far, as the depth was made.
+    std::span<const float> viewDepth;           ///< Linear; sky = kSkyViewDepth.
+    std::span<const glm::vec3> normal;          ///< World space, unit length; not read where the depth is sky.
+    std::span<const std::uint8_t> isCounted{};  ///< 0: not asked for, gives 1; empty = all.
 };
 std::vector<float> traceHeightfield(const HeightfieldInput& input, const HeightfieldSettings& settings);
 

@@ -6,10 +6,11 @@
 #include <cassert>
 #include <cmath>
 
+#include "truth/DepthContinuity.h"
+
 namespace crevice {
 namespace {
 
-constexpr float kEdgeTolerance = 0.02f;
 constexpr int kEdgeReach = 4;    // pixels
 constexpr int kMedianReach = 2;  // 5x5
 constexpr float kFlatRange = 0.1f;
@@ -34,23 +35,6 @@ struct Grid {
 };
 
 float finite(float value) { return std::isfinite(value) ? value : 0.0f; }
-
-/// Depth that a plane through two pixels has at the next one: straight in 1/z under perspective.
-float continued(float before, float here, bool orthographic) {
-    if (orthographic) return 2 * here - before;
-    const float inverse = 2 / here - 1 / before;
-    return inverse > 0 ? 1 / inverse : 1e30f;
-}
-
-/// Do the surfaces of four pixels in a row (or column) break between the second and the third?
-bool breaks(const std::array<float, 4>& z, float tolerance, bool orthographic) {
-    const auto meets = [&](float expected, float depth) {
-        return std::abs(expected - depth) <= tolerance * (orthographic ? 1 : depth);
-    };
-    const bool near = meets(z[1], z[2]);
-    return !near && !meets(continued(z[0], z[1], orthographic), z[2]) &&
-           !meets(continued(z[3], z[2], orthographic), z[1]);
-}
 
 RegionError errorWhere(const PictureInput& input, const std::vector<std::uint8_t>& region) {
     RegionError result;
@@ -118,18 +102,18 @@ float projectedPixels(const Camera& camera, const glm::uvec2& size, float length
 std::vector<std::uint8_t> findDepthEdges(const glm::uvec2& size, std::span<const float> viewDepth,
                                          const Camera& camera) {
     const Grid grid(size);
-    const float tolerance = kEdgeTolerance * (camera.orthographic ? camera.orthoHeight : 1.0f);
+    const DepthContinuity continuity(camera);
     std::vector<std::uint8_t> edges(viewDepth.size(), 0);
-    const auto depth = [&](int x, int y) {
-        return viewDepth[grid.at(std::clamp(x, 0, grid.size.x - 1), std::clamp(y, 0, grid.size.y - 1))];
+    const auto value = [&](const glm::ivec2& place) {
+        const glm::ivec2 inside = glm::clamp(place, glm::ivec2(0), grid.size - 1);
+        return continuity.toLinear(viewDepth[grid.at(inside.x, inside.y)]);
     };
     grid.all([&](int x, int y) {
         for (const glm::ivec2 step : {glm::ivec2(1, 0), glm::ivec2(0, 1)}) {
-            const glm::ivec2 here(x, y), next = here + step, before = here - step, after = next + step;
+            const glm::ivec2 here(x, y), next = here + step;
             if (!grid.contains(next.x, next.y)) continue;
-            const std::array<float, 4> row = {depth(before.x, before.y), depth(x, y), depth(next.x, next.y),
-                                              depth(after.x, after.y)};
-            if (breaks(row, tolerance, camera.orthographic)) edges[grid.at(x, y)] = edges[grid.at(next.x, next.y)] = 1;
+            if (continuity.breaks(value(here - step), value(here), value(next), value(next + step)))
+                edges[grid.at(x, y)] = edges[grid.at(next.x, next.y)] = 1;
         }
     });
     return edges;

@@ -62,15 +62,6 @@ TEST(TruthExact, LinearAndQuadraticFalloff) {
     expectOpenness(estimateOpenness(wall(), point, 1, "quadratic"), quadratic, kOffsetError);
 }
 
-/// Segments that two perpendicular chords cut off count their common part once.
-double cornerOpenness(double k1, double k2) {
-    const double common = k1 * k1 + k2 * k2 >= 1
-                              ? 0
-                              : k1 * k2 + 0.5 * (std::acos(k2) - std::asin(k1) - k1 * std::sqrt(1 - k1 * k1) -
-                                                 k2 * std::sqrt(1 - k2 * k2));
-    return 1 - (segmentArea(k1) + segmentArea(k2) - common) / kPi;
-}
-
 TEST(TruthExact, CornerOfARoom) {
     Scene scene = wall();
     addWallZ(scene, 0, 5, 5);

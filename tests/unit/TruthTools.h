@@ -1,6 +1,7 @@
 // Scenes of exact ambient occlusion: large planes and spheres, points on them, and openness with its own noise.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <utility>
@@ -97,5 +98,31 @@ inline void expectOpenness(const Estimate& estimate, double exact, double standI
 
 /// Area of a unit disc's segment beyond the chord at distance k from the centre.
 inline double segmentArea(double k) { return k < 1 ? std::acos(k) - k * std::sqrt(1 - k * k) : 0; }
+
+/// Segments that two perpendicular chords cut off count their common part once.
+inline double cornerOpenness(double k1, double k2) {
+    const double common = k1 * k1 + k2 * k2 >= 1
+                              ? 0
+                              : k1 * k2 + 0.5 * (std::acos(k2) - std::asin(k1) - k1 * std::sqrt(1 - k1 * k1) -
+                                                 k2 * std::sqrt(1 - k2 * k2));
+    return 1 - (segmentArea(k1) + segmentArea(k2) - common) / glm::pi<double>();
+}
+
+/// Share of a cosine-weighted hemisphere that a cap of directions takes whose axis is `tilt` from the normal and whose
+/// half-angle is `size`, below 90°: the part above the horizon alone when it sets.
+inline double capFactor(double tilt, double size) {
+    const double c = std::cos(tilt), h = 1 / (std::sin(size) * std::sin(size));
+    if (c * c * h >= 1) return std::max(0.0, c) / h;
+    const double k = std::sqrt(std::max(0.0, 1 - h * c * c)), root = std::sqrt(h - 1);
+    return ((c * std::acos(std::clamp(-c * root / std::sqrt(1 - c * c), -1.0, 1.0)) - k * root) / h +
+            std::atan2(k, root)) /
+           glm::pi<double>();
+}
+
+/// Groove of an interior angle, hard radius 1, at a distance from its edge: the other face cuts a cap off the ball.
+inline double grooveOpenness(double angle, double distance) {
+    const double s = distance * std::sin(angle);
+    return s >= 1 ? 1 : 1 - capFactor(angle, std::acos(s));
+}
 
 }  // namespace crevice::test
