@@ -239,6 +239,27 @@ TEST_F(AoLightingOptions, TransparentSurfacesAndSkyAreNotDarkened) {
     EXPECT_GT(half, 20);
 }
 
+TEST_F(AoLightingOptions, BlinnPhongDarkensItsConstantAmbientLight) {
+    const Scene dark = room();  // the chapter's ambient light comes without any light of the scene
+    Options options{{"lighting", "blinn-phong"}, {"multiBounce", "true"}, {"specularOcclusion", "cone"}};
+    const Image map = openness(dark);
+    const Image white = lit(dark, options, false);
+    const Image with = lit(dark, options);
+    EXPECT_NEAR(FloatMap(white).max(), FloatMap(white).min(), 1e-6f) << "whatever the surface's colour";
+    EXPECT_GT(FloatMap(white).min(), 0.01f);
+    const Image sunWhite = lit(sunlit(), options, false);
+    const Image sun = lit(sunlit(), options);
+    options["directStrength"] = "0.5";
+    const Image halfSun = lit(sunlit(), options);
+    eachPixel(with, [&](std::uint32_t x, std::uint32_t y) {
+        const double a = double(map.at(x, y).x);
+        const Rgb ambient = rgb(white, x, y), direct = rgb(sunWhite, x, y) - ambient;
+        expectNear(rgb(with, x, y), ambient * a, 1e-6, "ambient " + pixelName(x, y));
+        expectNear(rgb(sun, x, y), ambient * a + direct, 1e-6, "direct " + pixelName(x, y));
+        expectNear(rgb(halfSun, x, y), ambient * a + direct * (0.5 + 0.5 * a), 1e-6, "half " + pixelName(x, y));
+    });
+}
+
 TEST_F(AoLightingOptions, OnAlbedoNoOtherOptionCounts) {
     Scene scene = sunlit();
     scene.ambient = Ambient{glm::vec3(0.3f), glm::vec3(0.2f)};
