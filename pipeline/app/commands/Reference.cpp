@@ -19,6 +19,7 @@
 #include "core/Text.h"
 #include "flow/FrameData.h"
 #include "truth/AmbientReference.h"
+#include "truth/ErrorHeat.h"
 #include "truth/HeightfieldReference.h"
 
 namespace crevice {
@@ -35,7 +36,7 @@ constexpr std::uint32_t kMaxSamples = 1u << 20, kMaxSlices = 4096;
 
 struct ReferenceOptions {
     std::string scene, out, samples = "1024", seed = "1", depth, heightfield, thickness = "0.5", slices = "64";
-    std::vector<std::string> radius, falloff, measure;
+    std::vector<std::string> radius, falloff, measure, heat;
     ViewOptions view;
     ConsoleOptions console;
     bool allowOutside = false, noCache = false;
@@ -157,6 +158,11 @@ Request readRequest(const ReferenceOptions& options) {
     for (const std::string& path : options.measure)
         request.measured.push_back(redChannel(readMap("--measure", path, request.view.size)));
     if (!options.depth.empty()) request.depth = readMap("--depth", options.depth, request.view.size);
+    for (const std::string& path : options.heat) checkPicturePath("--heat", path);
+    if (options.heat.size() > options.measure.size()) {
+        throw Error(fmt::format("--heat: '{}' has no map", options.heat[options.measure.size()]),
+                    "give a --measure for each --heat, in the same order");
+    }
     return request;
 }
 
@@ -250,6 +256,10 @@ int runReference(const ReferenceOptions& options) {
     for (std::size_t i = 0; i < request.names.size(); ++i) files.add(request.names[i], traced.map.toImage(i));
     for (std::size_t i = 0; i < request.heightfieldNames.size(); ++i)
         files.add(request.heightfieldNames[i], toImage(request.view.size, traced.heightfields[i]));
+    for (std::size_t i = 0; i < options.heat.size(); ++i) {
+        files.add(options.heat[i], errorHeat(request.view.size, request.measured[i], traced.map.layers[0].openness,
+                                             traced.map.isCounted));
+    }
     for (const std::filesystem::path& path : files.commit()) print(path.string() + "\n");
     return 0;
 }
@@ -294,6 +304,12 @@ void addReferenceCommand(CLI::App& program, Action& action) {
     addOcclusionOptions(*command, *options);
     command->add_option("--measure", options->measure, "Map of the same view to compare with it (repeatable)")
         ->type_name("MAP")
+        ->allow_extra_args(false);
+    command
+        ->add_option("--heat", options->heat,
+                     "Picture of the error of the map at the same place among --measure, by the first radius and "
+                     "falloff (repeatable): red too bright, blue too dark, full from 0.5, grey does not count")
+        ->type_name("OUT")
         ->allow_extra_args(false);
     command->add_option("--depth", options->depth, "Dump of viewDepth: pixels with another surface do not count")
         ->type_name("DEPTH.exr");
