@@ -20,3 +20,14 @@ render $scenes/primitives.scene.json -o $out/primitives.png --size 480x270 --set
 render $scenes/spot.scene.json -o $out/spot.png --size 480x270
 render $scenes/fog.scene.json -o $out/fog.png --size 480x270
 render $scenes/glass.scene.json -o $out/glass.png --size 480x270
+ao=(default --size 320x180 --option ao=gtao --option radius=0.6)
+render "${ao[@]}" -p ao-deferred -o $out/light-ambient.png
+render "${ao[@]}" -p ao-deferred -o $out/light-direct.png --option directStrength=1
+render "${ao[@]}" -p ao-deferred -o $out/light-multibounce.png --option multiBounce=true
+render "${ao[@]}" -p ao-deferred -o $out/light-albedo.png --option applyTo=albedo
+for view in raw denoised edges; do render "${ao[@]}" -p ao-views -o $out/view-$view.png --option view=$view; done
+maps=$(mktemp -d)
+render "${ao[@]}" -p ao-deferred -o "$maps/ao.png" --dump cc_ssaoBlurMap="$maps/ao.exr" --dump viewDepth="$maps/depth.exr"
+"$crevice" reference default -q -o "$maps/truth.exr" --size 320x180 --samples 256 --radius 0.6 --measure "$maps/ao.exr" \
+  --depth "$maps/depth.exr" --heat $out/view-error.png >/dev/null
+rm -r "$maps"
