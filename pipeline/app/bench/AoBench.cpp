@@ -3,7 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
+#include <map>
 
 #include <fmt/format.h>
 
@@ -15,7 +15,9 @@ namespace {
 constexpr std::uint32_t kPictureWidth = 256, kLitWidth = 512;
 constexpr float kErrorGain = 4;  // an error of 1/4 is white
 // What a million rays and a million rendered or measured pixels take, in seconds on two cores: for the time left only.
-constexpr double kRays = 0.11, kMap = 0.3, kStudyMap = 0.35;
+constexpr double kRays = 0.11, kMap = 0.35, kStudyMap = 0.4;
+// The yardstick's radius is 1 whatever the scene: only scenes of that scale compare. These come first in the list.
+constexpr std::size_t kTimedScenes = 2;
 
 double megapixels(const glm::uvec2& size) { return 1e-6 * size.x * size.y; }
 
@@ -66,7 +68,10 @@ double AoBench::planWork() const {
     for (const AoCase& c : cases_) radii += c.everyRadius ? double(views_.radii.size()) : 1;
     for (const glm::uvec2& size : settings_.sizes) {
         work += megapixels(size) * views * (kRays * settings_.truth.samples + kMap * radii);
-        work += megapixels(size) * double(views_.scenes.size() * cases_.size() * settings_.repeats) * 2 * kMap;
+    }
+    if (yardstick_) {
+        const double scenes = double(std::min(kTimedScenes, views_.scenes.size()));
+        work += megapixels(settings_.sizes.front()) * scenes * double(cases_.size()) * kMap * (settings_.repeats + 2);
     }
     if (study_) {
         const auto maps = AoStudy::countMaps(cases_, std::size_t(views));
@@ -99,7 +104,10 @@ void AoBench::runScene(AoScene& scene, const glm::uvec2& size) {
     const bool isFirst = size == settings_.sizes.front();
     did("loading " + scene.name, 0);
     Scene loaded = loadAoScene(scene, renderer_.renderer().roots(), settings_.renderer.log);
-    if (yardstick_ && isFirst) yardstick_->setScene(loaded);
+    isTimed_ = yardstick_ && isFirst && std::size_t(&scene - views_.scenes.data()) < kTimedScenes;
+    if (isTimed_) yardstick_->setScene(loaded);
+    yardstickMs_ = 1e30;
+    const std::size_t firstRow = results_.rows.size();
     renderer_.setScene(loaded);
     const Truths truths = traceScene(scene, size);
     addFixedRows(scene, truths, hasOcclusionTexture(loaded));
@@ -117,6 +125,7 @@ void AoBench::runScene(AoScene& scene, const glm::uvec2& size) {
         if (&scene == &views_.scenes.front()) runCurves(scene, truths);
     }
     addLit(scene, loaded);
+    if (isTimed_) setShares(firstRow);
 }
 
 AoBench::Truths AoBench::traceScene(const AoScene& scene, const glm::uvec2& size) {
@@ -200,23 +209,32 @@ void AoBench::runCase(const AoScene& scene, const Truths& truths, const AoCase& 
     const bool isShown = radius == middle() && truths.size == settings_.sizes.front();
     const std::size_t shown = std::size_t(&shownView(scene) - scene.views.data());
     if (isShown) addPicture(scene, truths, wanted, radius, measurements[shown].map);
-    if (isShown && yardstick_) {
-        AoRow& row = measurements[shown].row;
-        row.cpuShare = measureCost(scene.views[shown], row.cpuMs);
-    }
+    const bool isTimed = isShown && isTimed_;
+    if (isTimed) measurements[shown].row.cpuMs = measureCost(scene.views[shown]);
     for (AoRow& row : measureRows(measurements)) results_.rows.push_back(std::move(row));
     did(fmt::format("{}: {}", scene.name, wanted.label()),
-        megapixels(truths.size) * kMap * (double(scene.views.size()) + (isShown ? 2 * settings_.repeats : 0)));
+        megapixels(truths.size) * kMap * (double(scene.views.size()) + (isTimed ? settings_.repeats + 2 : 0)));
 }
 
-double AoBench::measureCost(const AoView& view, double& milliseconds) {
-    double own = 1e30, yardstick = 1e30;
+/// Least of the rounds; the yardstick is measured between them, and its least over the scene counts.
+double AoBench::measureCost(const AoView& view) {
+    yardstickMs_ = std::min(yardstickMs_, yardstick_->measure(view));
+    double least = 1e30;
     for (std::uint32_t round = 0; round < settings_.repeats; ++round) {
-        yardstick = std::min(yardstick, yardstick_->measure(view));
-        own = std::min(own, renderer_.render(view).aoMs);
+        least = std::min(least, renderer_.render(view).aoMs);
     }
-    milliseconds = own;
-    return own / yardstick;
+    return least;
+}
+
+void AoBench::setShares(std::size_t firstRow) {
+    for (std::size_t i = firstRow; i < results_.rows.size(); ++i) {
+        AoRow& row = results_.rows[i];
+        if (row.technique != "white" && row.technique != "baked") row.cpuShare = row.cpuMs / yardstickMs_;
+    }
+    if (firstRow > 0) return;  // curves are those of the first scene
+    for (AoCurveResult& curve : results_.curves) {
+        for (AoCurvePoint& point : curve.points) point.cpuShare /= yardstickMs_;
+    }
 }
 
 void AoBench::addPicture(const AoScene& scene, const Truths& truths, const AoCase& wanted, std::size_t radius,
@@ -246,13 +264,15 @@ void AoBench::addLit(const AoScene& scene, const Scene& loaded) {
         return shrunk(renderer.render({.width = size.x, .height = size.y, .camera = view.camera}), kLitWidth);
     };
     const Image without = render({{"ao", "off"}});
-    std::set<std::string> shown;
+    std::map<std::string, const AoCase*> shown;  // of each technique "high", else its first
     for (const AoCase& c : cases_) {
-        if (c.quality != "high" && c.quality != cases_.front().quality) continue;
-        if (!shown.insert(c.technique).second) continue;
-        std::map<std::string, std::string> options = c.options;
+        const AoCase*& chosen = shown[c.technique];
+        if (!chosen || (c.quality == "high" && c.extras.empty())) chosen = &c;
+    }
+    for (const auto& [technique, c] : shown) {
+        std::map<std::string, std::string> options = c->options;
         options["radius"] = fmt::format("{}", views_.radii[middle()] * loaded.bounds().diagonal());
-        results_.lit.push_back({scene.name, view.name, c.label(), render(options), without});
+        results_.lit.push_back({scene.name, view.name, c->label(), render(options), without});
     }
 }
 
@@ -267,8 +287,7 @@ void AoBench::runCurves(const AoScene& scene, const Truths& truths) {
             point.label = c.label();
             point.x = curves_[i].name.starts_with("blur") ? c.denoiseTaps : c.taps;
             point.ofWhite = measureMap(map, truth.layers[middle()].openness, truth.isCounted).ofWhite;
-            double milliseconds = 0;
-            point.cpuShare = yardstick_ ? measureCost(scene.views[shown], milliseconds) : kUnknown;
+            point.cpuShare = isTimed_ ? measureCost(scene.views[shown]) : kUnknown;
             results_.curves[i].points.push_back(point);
         }
     }

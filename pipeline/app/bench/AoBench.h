@@ -17,7 +17,7 @@ struct AoBenchSettings {
     std::vector<glm::uvec2> sizes{{1280, 720}};
     glm::uvec2 studySize{480, 270};
     AoTruthSettings truth{};
-    std::uint32_t repeats = 3;  ///< Timed rounds; 0 = no timing.
+    std::uint32_t repeats = 3;  ///< Timed frames of each case; 0 = no timing.
     bool study = true;          ///< Calibration, split, matched truths and curves.
     RendererOptions renderer{};
     /// Words for what is done and the share of the whole that is done.
@@ -39,7 +39,8 @@ private:
     void runCase(const AoScene& scene, const Truths& truths, const AoCase& wanted, std::size_t radius);
     void addPicture(const AoScene& scene, const Truths& truths, const AoCase& wanted, std::size_t radius,
                     const std::vector<float>& map);
-    double measureCost(const AoView& view, double& milliseconds);
+    double measureCost(const AoView& view);
+    void setShares(std::size_t firstRow);
     void runCurves(const AoScene& scene, const Truths& truths);
     void addLit(const AoScene& scene, const Scene& loaded);
     AoRow rowFor(const AoScene& scene, const AoView& view, const Truths& truths, std::size_t radius) const;
@@ -55,6 +56,8 @@ private:
     std::unique_ptr<AoYardstick> yardstick_;
     std::unique_ptr<AoStudy> study_;
     AoResults results_;
+    bool isTimed_ = false;    ///< Of the scene at hand.
+    double yardstickMs_ = 0;  ///< Least so far, of the scene at hand.
     double done_ = 0, planned_ = 1;
 };
 

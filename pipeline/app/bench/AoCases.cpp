@@ -119,30 +119,25 @@ std::vector<AoCase> listAoCases(const AssetRoots& roots, const AoCaseChoice& cho
     }
     for (const std::string& variant : variants) cases.push_back(parseAoCase(roots, variant));
     if (isAll) {
-        // What no bar names is measured at the middle radius: a third of the time.
-        const std::vector<std::string> thorough = {"gtao", "vbao"};
-        for (AoCase& c : cases) c.everyRadius = contains(thorough, c.technique) || c.quality == "high";
+        // The others are measured at the middle radius: a third of the time.
+        for (AoCase& c : cases) c.everyRadius = c.technique == "gtao" || c.technique == "vbao";
     }
     return cases;
 }
 
 std::vector<AoCurve> listAoCurves(const AssetRoots& roots, const std::vector<AoCase>& cases) {
     std::vector<AoCurve> curves;
-    std::set<std::string> techniques;
-    for (const AoCase& c : cases) techniques.insert(c.technique);
-    for (const std::string& technique : techniques) {
-        AoCurve samples{"samples: " + technique, {}};
+    for (const std::string technique : {"vbao", "gtao", "cocos"}) {
+        if (std::none_of(cases.begin(), cases.end(), [&](const AoCase& c) { return c.technique == technique; }))
+            continue;
+        AoCurve samples{"samples: " + technique, {}}, blur{"blur: " + technique + " high", {}};
         for (const std::string quality : {"fast", "medium", "high", "ultra"}) {
             samples.cases.push_back(parseAoCase(roots, technique + " " + quality + " resolution=full passes=0"));
         }
-        curves.push_back(std::move(samples));
-    }
-    for (const std::string technique : {"vbao", "gtao"}) {
-        if (!techniques.contains(technique)) continue;
-        AoCurve blur{"blur: " + technique + " high", {}};
         for (const std::string passes : {"0", "1", "2", "3"}) {
             blur.cases.push_back(parseAoCase(roots, technique + " high resolution=full passes=" + passes));
         }
+        curves.push_back(std::move(samples));
         curves.push_back(std::move(blur));
     }
     return curves;

@@ -10,7 +10,7 @@
 namespace crevice {
 namespace {
 
-constexpr double kFactors[] = {0.7, 0.85, 1, 1.25, 1.6, 2.2};
+constexpr double kFactors[] = {0.7, 1, 1.4, 2};
 
 struct StudyView {
     const AoView* view;

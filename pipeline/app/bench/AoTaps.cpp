@@ -8,6 +8,8 @@
 namespace crevice {
 namespace {
 
+constexpr double kSsaoStageSamples = 64;  // what the class takes unless told
+
 std::optional<double> numberOf(const Value& object, const char* key) {
     if (!object.isObject()) return std::nullopt;
     const Value* value = object.find(key);
@@ -23,7 +25,7 @@ double tapsOf(const StageDesc& stage) {
             if (const auto samples = numberOf(*object, key)) return *samples;
         }
     }
-    return 0;
+    return stage.stageClass == "SsaoStage" ? kSsaoStageSamples : 0;
 }
 
 template <class Visit>
