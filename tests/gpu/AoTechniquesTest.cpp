@@ -182,7 +182,7 @@ TEST(AoTechniqueFiles, EveryTechniqueHasEveryQuality) {
                 ++seen;
             }
     }
-    EXPECT_EQ(seen, 25u);
+    EXPECT_EQ(seen, 45u);
 }
 
 }  // namespace
