@@ -39,7 +39,11 @@ void forEnabledStages(const PipelineDesc& desc, Visit visit) {
 
 /// Texels that one level of a denoiser reads.
 double levelTaps(const std::string& effect) {
-    const std::map<std::string, double> counts = {{"ao-atrous", 9}};
+    const std::map<std::string, double> counts = {{"ao-denoise-atrous", 9},
+                                                  {"ao-denoise-bilateral", 25},
+                                                  {"ao-denoise-box", 25},
+                                                  {"ao-denoise-edge-packed", 13},
+                                                  {"ao-denoise-gaussian", 25}};
     const auto found = counts.find(effect);
     return found != counts.end() ? found->second : 0;
 }
