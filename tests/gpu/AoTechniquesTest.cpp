@@ -73,9 +73,9 @@ TEST_F(AoTechniques, ReferenceMeetsTheFormulaOfAWall) {
     constexpr std::uint32_t kColumns = 160, kRows = 150;
     constexpr float kSeen = 3;  // world units; everything within the radius of the rows below is in the frame
     for (const std::string ao : {"gtao", "vbao"}) {
-        // Thick and without its exponent the bitmask is the same integral.
+        // Thick things: the bitmask is the same integral.
         Sets sets;
-        if (ao == "vbao") sets = {{"AoMain.material.thickness", "2"}, {"AoMain.material.power", "1"}};
+        if (ao == "vbao") sets = {{"AoMain.material.thickness", "2"}};
         loadTechnique(ao, 1, "reference", sets);
         renderer_->setScene(wallScene());
         const FloatMap ao1 = map(viewOf(wallCamera(kSeen), kColumns, kRows));
@@ -131,7 +131,7 @@ TEST_F(AoTechniques, ThinBarsDarkenLessWithTheBitmask) {
     std::map<std::string, double> behind;
     for (const std::string ao : {"gtao", "vbao"}) {
         Sets sets;
-        if (ao == "vbao") sets = {{"AoMain.material.thickness", "0.1"}, {"AoMain.material.power", "1"}};
+        if (ao == "vbao") sets = {{"AoMain.material.thickness", "0.1"}};
         loadTechnique(ao, 1, "ultra", sets);
         Scene scene = tiltedPlane(0);
         addBox(scene, {0, 0, -kDistance + 0.5f}, {0.15f, 20, 0.1f});
@@ -182,7 +182,7 @@ TEST(AoTechniqueFiles, EveryTechniqueHasEveryQuality) {
                 ++seen;
             }
     }
-    EXPECT_EQ(seen, 45u);
+    EXPECT_GE(seen, 45u);
 }
 
 }  // namespace
