@@ -87,6 +87,46 @@ TEST(TruthExact, GrooveIsEquallyOpenEverywhere) {
     }
 }
 
+// The other face cuts a cap off the ball of the radius; faces reach farther.
+TEST(TruthExact, GrooveWithARadius) {
+    EXPECT_NEAR(grooveOpenness(glm::radians(60.0), 0.3), 0.4090, 5e-5);
+    EXPECT_NEAR(grooveOpenness(glm::radians(60.0), 0.9), 0.8019, 5e-5);
+    EXPECT_NEAR(grooveOpenness(glm::radians(120.0), 0.3), 0.8753, 5e-5);
+    for (const float degrees : {60.0f, 90.0f, 120.0f, 150.0f}) {
+        const float angle = glm::radians(degrees);
+        Scene scene = whiteScene();
+        const glm::vec3 far(4 * std::cos(angle), 4 * std::sin(angle), 0), along(0, 0, 4);
+        addQuad(scene, -along, along, far + along, far - along);
+        for (const float d : {0.1f, 0.3f, 0.9f}) {
+            expectOpenness(estimateOpenness(scene, pointAt({d, 0, 0}, {0, 1, 0}), 1),
+                           grooveOpenness(double(angle), double(d)), kOffsetError);
+        }
+    }
+}
+
+// A sphere is convex: only the floor below it occludes it. The floor ends 4000 radii away, at an angle of 5e-4.
+TEST(TruthExact, SphereAboveAFloor) {
+    Scene scene = whiteScene();
+    addMesh(scene, makeSphere(1, 256), glm::translate(glm::mat4(1), glm::vec3(0, 1, 0)));
+    addFloor(scene, 4000);
+    for (const float c : {0.8f, 0.3f, 0.0f, -0.5f, -0.9f}) {
+        const glm::vec3 normal(std::sqrt(1 - c * c), c, 0);
+        expectOpenness(estimateOpenness(scene, pointAt(glm::vec3(0, 1, 0) + 1.0005f * normal, normal), kInfinite),
+                       0.5 * (1 + double(c)), 1e-3);
+    }
+}
+
+// A sheet without thickness occludes to both sides alike, whichever way it faces.
+TEST(TruthExact, ThinSheet) {
+    const double d = 0.5, height = 1;
+    Scene scene = whiteScene();
+    addWallX(scene, 0, float(height), 2000);
+    for (const float side : {-1.0f, 1.0f}) {
+        expectOpenness(estimateOpenness(scene, pointAt({side * float(d), 0, 0}, {0, 1, 0}), kInfinite),
+                       1 - 0.5 * (1 - d / std::hypot(d, height)), 1e-3);
+    }
+}
+
 // A sphere of 512 facets around is inscribed: its silhouette lies up to 2e-5 of the radius too far inside.
 TEST(TruthExact, FloorBelowASphere) {
     const double r = 1;

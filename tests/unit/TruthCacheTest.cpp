@@ -1,0 +1,196 @@
+// Maps that are kept: the same bytes without a ray, and another key for whatever rays could notice.
+#include <unistd.h>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <map>
+
+#include "TruthTools.h"
+#include "core/Files.h"
+#include "truth/TruthCache.h"
+
+namespace crevice::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+class TruthCache : public ::testing::Test {
+protected:
+    void SetUp() override {
+        folder_ = fs::temp_directory_path() / ("crevice-truth-" + std::to_string(::getpid()));
+        fs::create_directories(folder_);
+        settings_ = {
+            .terms = {{1, &hardFalloff()}, {0.5f, findFalloff("matched:cocos")}}, .samples = 16, .cache = folder_};
+        scene_ = whiteScene();
+        addFloor(scene_, 5);
+        addWallX(scene_, 0, 5, 5);
+        camera_ = Camera::lookAt({3, 4, 1}, {0.5f, 0, 0});
+        camera_.near = 0.1f;
+        camera_.far = 50;
+    }
+    void TearDown() override { fs::remove_all(folder_); }
+
+    AmbientMap trace() const { return traceAmbient(scene_, camera_, {20, 12}, settings_); }
+    std::vector<fs::path> files() const {
+        std::vector<fs::path> found;
+        for (const auto& entry : fs::directory_iterator(folder_)) found.push_back(entry.path());
+        return found;
+    }
+    static void expectSame(const AmbientMap& a, const AmbientMap& b) {
+        EXPECT_EQ(a.viewDepth, b.viewDepth);
+        EXPECT_EQ(a.normal, b.normal);
+        EXPECT_EQ(a.isCounted, b.isCounted);
+        ASSERT_EQ(a.layers.size(), b.layers.size());
+        for (std::size_t i = 0; i < a.layers.size(); ++i) {
+            EXPECT_EQ(a.layers[i].openness, b.layers[i].openness);
+            EXPECT_EQ(a.layers[i].first, b.layers[i].first);
+            EXPECT_EQ(a.layers[i].second, b.layers[i].second);
+            EXPECT_EQ(a.layers[i].noise, b.layers[i].noise);
+        }
+    }
+
+    fs::path folder_;
+    AmbientSettings settings_;
+    Scene scene_;
+    Camera camera_;
+};
+
+TEST_F(TruthCache, TheSecondRunTracesNothing) {
+    const AmbientMap first = trace();
+    EXPECT_FALSE(first.fromCache);
+    ASSERT_EQ(files().size(), 1u);
+    int reports = 0;
+    settings_.progress = [&](float) { ++reports; };
+    settings_.threads = 3;
+    const AmbientMap second = trace();
+    EXPECT_TRUE(second.fromCache);
+    EXPECT_EQ(reports, 0) << "the tracer ran";
+    expectSame(first, second);
+    const AmbientMap third = traceAmbient(RayScene(scene_), camera_, {20, 12}, settings_);
+    EXPECT_TRUE(third.fromCache);
+    settings_.cache.reset();
+    const AmbientMap again = trace();
+    EXPECT_FALSE(again.fromCache);
+    EXPECT_GT(reports, 0);
+    expectSame(first, again);
+}
+
+// The file decides, not the memory of the process: what is written into it comes back, if its hash is right.
+TEST_F(TruthCache, DamagedFilesAreTracedAnew) {
+    const AmbientMap first = trace();
+    const fs::path file = files().front();
+    const std::string whole = readText(file);
+    std::string flipped = whole;
+    flipped[whole.size() / 2] = static_cast<char>(flipped[whole.size() / 2] ^ 1);
+    for (const std::string& damaged : {std::string(), whole.substr(0, 100), whole.substr(0, whole.size() - 1), flipped,
+                                       whole + "x", std::string(whole.size(), 'x')}) {
+        std::ofstream(file, std::ios::binary) << damaged;
+        const AmbientMap again = trace();
+        EXPECT_FALSE(again.fromCache);
+        expectSame(first, again);
+        EXPECT_EQ(readText(file), whole) << "not written anew";
+        EXPECT_TRUE(trace().fromCache);
+    }
+    EXPECT_EQ(files().size(), 1u) << "something was left aside";
+}
+
+TEST_F(TruthCache, AFolderThatCannotBeWrittenIsNoError) {
+    settings_.cache = folder_ / "absent" / "folder";
+    EXPECT_FALSE(trace().fromCache);
+    EXPECT_FALSE(trace().fromCache);
+    EXPECT_FALSE(fs::exists(*settings_.cache));
+}
+
+TEST_F(TruthCache, WhatRaysNoticeIsAnotherKey) {
+    SceneTexture texture;
+    texture.image = Image(2, 1, Format::RGBA8);
+    scene_.textures.push_back(texture);
+    SceneMaterial mask;
+    mask.alphaMode = AlphaMode::Mask;
+    mask.baseColorMap.texture = 0;
+    scene_.materials.push_back(mask);
+    addQuad(scene_, {-1, 1, 1}, {1, 1, 1}, {1, 1, -1}, {-1, 1, -1}, 1);
+    struct Input {
+        Scene scene;
+        Camera camera;
+        glm::uvec2 size{20, 12};
+        AmbientSettings settings;
+    };
+    const Input plain{scene_, camera_, {20, 12}, settings_};
+    const auto keyOf = [](const Input& input) {
+        return truthKey(input.scene, input.camera, input.size, input.settings);
+    };
+    Falloff steeper = *findFalloff("linear");
+    steeper.power = 2;
+    const std::map<std::string, std::function<void(Input&)>> changes = {
+        {"position", [](Input& i) { i.scene.meshes[1].vertices[2].position.y += 1e-4f; }},
+        {"normal",
+         [](Input& i) {
+             i.scene.meshes[0].vertices[0].normal = {1, 0, 0};
+         }},
+        {"index", [](Input& i) { std::swap(i.scene.meshes[0].indices[0], i.scene.meshes[0].indices[1]); }},
+        {"transform", [](Input& i) { i.scene.instances[1].world[3].x = 0.01f; }},
+        {"flipped", [](Input& i) { i.scene.instances[1].flipped = true; }},
+        {"instance", [](Input& i) { i.scene.instances.push_back(i.scene.instances[0]); }},
+        {"blend", [](Input& i) { i.scene.materials[0].alphaMode = AlphaMode::Blend; }},
+        {"two-sided", [](Input& i) { i.scene.materials[0].doubleSided = true; }},
+        {"cutoff", [](Input& i) { i.scene.materials[1].alphaCutoff = 0.4f; }},
+        {"alpha", [](Input& i) { i.scene.materials[1].baseColor.a = 0.9f; }},
+        {"texel", [](Input& i) { i.scene.textures[0].image.pixel(1, 0)[3] = std::byte{7}; }},
+        {"wrap", [](Input& i) { i.scene.textures[0].sampler.wrapU = TextureWrap::Clamp; }},
+        {"uv", [](Input& i) { i.scene.meshes[2].vertices[0].uv0.x = 0.5f; }},
+        {"vertex alpha", [](Input& i) { i.scene.meshes[2].vertices[0].color.a = 0.5f; }},
+        {"eye", [](Input& i) { i.camera.view[3].x += 1e-5f; }},
+        {"field of view", [](Input& i) { i.camera.fovY += 1e-5f; }},
+        {"parallel", [](Input& i) { i.camera.orthographic = true; }},
+        {"shift", [](Input& i) { i.camera.lensShift.y = 0.1f; }},
+        {"near", [](Input& i) { i.camera.near = 0.2f; }},
+        {"far", [](Input& i) { i.camera.far = 60; }},
+        {"size",
+         [](Input& i) {
+             i.size = {12, 20};
+         }},
+        {"radius", [](Input& i) { i.settings.terms[0].radius = 1.01f; }},
+        {"falloff", [](Input& i) { i.settings.terms[0].falloff = findFalloff("linear"); }},
+        {"changed falloff", [&](Input& i) { i.settings.terms[0].falloff = &steeper; }},
+        {"directions", [](Input& i) { i.settings.terms[0].falloff = findFalloff("matched:songjihu"); }},
+        {"terms", [](Input& i) { i.settings.terms.pop_back(); }},
+        {"samples", [](Input& i) { i.settings.samples = 32; }},
+        {"seed", [](Input& i) { i.settings.seed = 2; }},
+    };
+    std::map<std::string, std::string> names = {{keyOf(plain), "nothing"}};
+    for (const auto& [name, change] : changes) {
+        Input changed = plain;
+        change(changed);
+        const auto [known, isNew] = names.emplace(keyOf(changed), name);
+        EXPECT_TRUE(isNew) << "'" << name << "' has the key of '" << known->second << "'";
+    }
+    const std::map<std::string, std::function<void(Input&)>> irrelevant = {
+        {"names", [](Input& i) { i.scene.name = i.scene.meshes[0].name = i.scene.materials[0].name = "other"; }},
+        {"colour",
+         [](Input& i) {
+             i.scene.materials[0].baseColor = {1, 0, 0, 0.5f};
+         }},
+        {"lights", [](Input& i) { i.scene.lights.emplace_back(); }},
+        {"threads", [](Input& i) { i.settings.threads = 7; }},
+        {"uv of opaque", [](Input& i) { i.scene.meshes[0].vertices[0].uv0.x = 0.5f; }},
+        {"unused", [](Input& i) { i.scene.materials.emplace_back(); }},
+    };
+    for (const auto& [name, change] : irrelevant) {
+        Input changed = plain;
+        change(changed);
+        EXPECT_EQ(keyOf(changed), keyOf(plain)) << name;
+    }
+}
+
+TEST_F(TruthCache, AMovedTriangleIsTraced) {
+    const AmbientMap first = trace();
+    scene_.instances[1].world[3].x = 0.3f;
+    const AmbientMap second = trace();
+    EXPECT_FALSE(second.fromCache);
+    EXPECT_NE(first.layers[0].openness, second.layers[0].openness);
+    EXPECT_EQ(files().size(), 2u);
+}
+
+}  // namespace
+}  // namespace crevice::test
