@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 
 namespace crevice {
@@ -68,21 +67,6 @@ glm::dvec3 cosineDirection(double u, double v) {
     return {r * std::cos(phi), r * std::sin(phi), std::sqrt(1 - r * r)};
 }
 
-/// Share of lengths U · (0.1 + 0.9 V²) up to x: the mean over V of min(1, x / (0.1 + 0.9 V²)).
-double learnOpenGlShare(double x) {
-    const double full = std::sqrt(std::clamp((x - 0.1) / 0.9, 0.0, 1.0));
-    return full + x / 0.3 * (std::atan(3.0) - std::atan(3 * full));
-}
-
-double learnOpenGlLength(double share) {
-    double low = 0, high = 1;
-    for (int i = 0; i < 40; ++i) {
-        const double middle = 0.5 * (low + high);
-        (learnOpenGlShare(middle) < share ? low : high) = middle;
-    }
-    return low;
-}
-
 glm::dvec3 ownSample(SsaoKernelKind kind, Pcg32& random, double t) {
     switch (kind) {
         case SsaoKernelKind::Crytek:
@@ -121,12 +105,12 @@ void makeSsaoKernel(SsaoKernelKind kind, std::uint32_t seed, std::span<glm::vec4
     }
 }
 
-double ssaoLengthQuantile(SsaoKernelKind kind, double x) {
+double ssaoRayLength(SsaoKernelKind kind, double x) {
     switch (kind) {
         case SsaoKernelKind::Crytek:
             return std::cbrt(x);
         case SsaoKernelKind::LearnOpenGl:
-            return learnOpenGlLength(x);
+            return x * x;
         case SsaoKernelKind::Songjihu:
             return ladder(x, 0.01);
         default:
@@ -147,7 +131,7 @@ void makeSsaoRays(SsaoKernelKind kind, std::uint32_t seed, std::size_t pointsPer
         const double start = fraction(0.5 / count + index * kGolden);
         for (std::size_t point = 0; point < pointsPerRay; ++point) {
             const double share = (static_cast<double>(point) + start) / static_cast<double>(pointsPerRay);
-            samples[ray * pointsPerRay + point] = rounded(direction * ssaoLengthQuantile(kind, share));
+            samples[ray * pointsPerRay + point] = rounded(direction * ssaoRayLength(kind, share));
         }
     }
 }

@@ -25,12 +25,14 @@ enum class SsaoKernelKind { Article, Stratified, Crytek, LearnOpenGl, Songjihu }
 void makeSsaoKernel(SsaoKernelKind kind, std::uint32_t seed, std::span<glm::vec4> samples);
 
 /// Rays instead of points: every `pointsPerRay` samples that follow each other lie on one ray. Directions are
-/// cosine-weighted, evenly spread in elevation and, by the golden ratio, in azimuth; the lengths are quantiles of the
-/// technique's own law, spread over all rays. The size of the span is a multiple of `pointsPerRay`.
+/// cosine-weighted, evenly spread in elevation and, by the golden ratio, in azimuth; the lengths follow
+/// ssaoRayLength(). The size of the span is a multiple of `pointsPerRay`.
 void makeSsaoRays(SsaoKernelKind kind, std::uint32_t seed, std::size_t pointsPerRay, std::span<glm::vec4> samples);
 
-/// The length that a share `x` of a technique's samples does not exceed, as its count grows.
-double ssaoLengthQuantile(SsaoKernelKind kind, double x);
+/// Length of a ray's point, by the share `x` of the samples that are shorter. Article, Stratified, Songjihu: their
+/// ladder. Crytek: cbrt x, as in a ball. LearnOpenGl: x², as dense near the surface as its own lengths but up to the
+/// whole radius, which those reach with one sample in a thousand.
+double ssaoRayLength(SsaoKernelKind kind, double x);
 
 /// The chunk `ssao-kernel`: the same samples as GLSL constants, exact to the bit.
 std::string ssaoKernelChunk(std::span<const glm::vec4> samples);
