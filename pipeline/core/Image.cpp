@@ -1,7 +1,9 @@
 // A CPU image: access to pixels and the mapping of any format to 8 bits.
 #include "core/Image.h"
 
+#include <algorithm>
 #include <cassert>
+#include <cstring>
 
 namespace crevice {
 namespace {
@@ -56,6 +58,15 @@ const std::byte* Image::pixel(std::uint32_t x, std::uint32_t y) const {
 }
 
 glm::vec4 Image::at(std::uint32_t x, std::uint32_t y) const { return decodePixel(format, pixel(x, y)); }
+
+Image cropped(const Image& image, glm::uvec2 offset, glm::uvec2 extent) {
+    assert(offset.x + extent.x <= image.width && offset.y + extent.y <= image.height);
+    Image part(extent.x, extent.y, image.format);
+    const std::size_t rowBytes = part.pixels.size() / std::max(1u, extent.y);
+    for (std::uint32_t y = 0; y < extent.y; ++y)
+        std::memcpy(part.pixel(0, y), image.pixel(offset.x, offset.y + y), rowBytes);
+    return part;
+}
 
 Image toEightBit(const Image& image, PngMapping mapping, float far) {
     assert(far > 0.0f);

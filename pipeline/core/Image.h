@@ -28,6 +28,9 @@ struct Image {
     bool operator==(const Image&) const = default;
 };
 
+/// The part of an image that starts at `offset`; it must lie inside.
+Image cropped(const Image& image, glm::uvec2 offset, glm::uvec2 extent);
+
 /// How raw values become 8 bits in a PNG: clamped to [0,1]; signed ones as x/2+1/2; depth divided by `far`.
 /// Alpha is only clamped. Rounding is half up: floor(x * 255 + 1/2); not-a-number becomes 0.
 enum class PngMapping { Clamp, Signed, DepthByFar };

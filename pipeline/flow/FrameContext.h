@@ -22,7 +22,7 @@ struct Groups {
 /// One camera's frame as the pipeline sees it.
 struct FrameView {
     Camera camera;                 ///< near and far are filled in.
-    glm::uvec2 extent{1280, 720};  ///< Pixels of the frame.
+    glm::uvec2 extent{1280, 720};  ///< Pixels of the frame; while stages run, with the pipeline's guard around it.
     glm::mat4 projection{1};
     float exposure = 1;  ///< Factor from scene luminance to 1.0 before tone mapping.
     std::uint32_t frameIndex = 0;

@@ -29,6 +29,23 @@ PunctualLight pack(const Light& light) {
 
 }  // namespace
 
+FrameView guardedView(const FrameView& view, std::uint32_t guard) {
+    if (guard == 0) return view;
+    FrameView wide = view;
+    wide.extent = view.extent + 2 * guard;
+    // The border is as wide on both sides, so the centre stays: clip x and y shrink by frame / (frame + 2 guard),
+    // whatever the projection (rows 0 and 1, the lens shift in them included). Depth is left alone.
+    const glm::vec2 share = glm::vec2(view.extent) / glm::vec2(wide.extent);
+    for (int column = 0; column < 4; ++column) {
+        wide.projection[column].x *= share.x;
+        wide.projection[column].y *= share.y;
+    }
+    wide.camera.fovY = 2.0f * std::atan(std::tan(0.5f * view.camera.fovY) / share.y);
+    wide.camera.orthoHeight /= share.y;
+    wide.camera.lensShift *= share;
+    return wide;
+}
+
 GlobalBlock globalBlock(const FrameView& view) {
     const glm::vec2 size(view.extent);
     GlobalBlock block;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "flow/FrameBlocks.h"
@@ -12,6 +13,9 @@ namespace crevice {
 
 /// Share of the scene's bounding-box diagonal that `auto` lengths such as an occlusion radius take.
 inline constexpr float kAutoLength = 1.0f / 40.0f;
+
+/// The view with `guard` more pixels on each side: what shows at a pixel p of the frame shows at p + guard.
+FrameView guardedView(const FrameView& view, std::uint32_t guard);
 
 GlobalBlock globalBlock(const FrameView& view);
 CameraBlock cameraBlock(const FrameView& view, const Scene& scene);

@@ -13,6 +13,7 @@
 #include "flow/StageRegistry.h"
 #include "flow/Wiring.h"
 #include "plan/PipelineAsset.h"
+#include "plan/TargetSize.h"
 
 namespace crevice {
 namespace {
@@ -60,6 +61,9 @@ FrameProgram::FrameProgram(PipelineDesc desc, const StageRegistry& registry, Eff
                            RunInfo run)
     : desc_(std::move(desc)), library_(library), log_(log) {
     Problems problems;
+    const std::uint32_t guard = guardPixels(desc_.guard, run.height);
+    run.width += 2 * guard;
+    run.height += 2 * guard;
     makeStages(registry, run, problems);
     problems.throwIfErrors();
     nameGlobals();

@@ -11,6 +11,7 @@
 #include "flow/RenderStage.h"
 #include "gfx/Device.h"
 #include "gfx/Pipeline.h"
+#include "plan/TargetSize.h"
 
 namespace crevice {
 namespace {
@@ -90,6 +91,7 @@ void RenderPipeline::prepare(const Scene& scene) {
 
 void RenderPipeline::activate(glm::uvec2 extent) {
     if (extent == targets_->extent()) return;
+    targets_->checkFits(extent);  // before anything is let go of: a frame that is too large leaves all as it was
     // Set 0 must let go of the old views before they are destroyed: some drivers read them although no shader does.
     for (const TargetDesc& target : program_.desc().targets) {
         if (target.isGlobal() && targets_->extent().x > 0)
@@ -113,9 +115,13 @@ void RenderPipeline::activate(glm::uvec2 extent) {
                     extent.x, extent.y, static_cast<double>(targets_->bytes()) / (1 << 20), autoLength));
 }
 
-void RenderPipeline::render(const FrameView& view, std::span<const std::string> keep) {
+void RenderPipeline::render(const FrameView& frame, std::span<const std::string> keep) {
     assert(scene_ && "prepare() comes first");
+    const std::uint32_t guard = guardPixels(program_.desc().guard, frame.extent.y);
+    const FrameView view = guardedView(frame, guard);
     activate(view.extent);
+    frame_ = frame.extent;
+    guard_ = guard;
     commands_.begin();
     barriers_.clear();
     commands_.recordBarriersTo(&barriers_);
@@ -224,7 +230,11 @@ void RenderPipeline::recordReadback(std::string_view target) {
 
 Image RenderPipeline::image(std::string_view target) const {
     for (const auto& kept : kept_) {
-        if (kept->target == target && kept->current) return kept->readback.image();
+        if (kept->target != target || !kept->current) continue;
+        Image whole = kept->readback.image();
+        if (guard_ == 0) return whole;
+        const FrameCrop crop = frameCrop(targets_->desc(target), frame_.x, frame_.y, guard_);
+        return cropped(whole, crop.offset, crop.extent);
     }
     throw Error(fmt::format("target '{}' was not kept by the last frame", target), "name it in render()'s keep");
 }

@@ -34,14 +34,15 @@ public:
     void prepare(const Scene& scene);
 
     /// Renders one frame and waits. Targets are made anew only when the extent differs from the last frame's.
+    /// With a guard in the document the frame is rendered with a border (see guardedView()), and image() is without it.
     /// `keep`: targets whose contents image() can return afterwards, besides the output.
-    void render(const FrameView& view, std::span<const std::string> keep = {});
+    void render(const FrameView& frame, std::span<const std::string> keep = {});
 
     /// Called with a stage's name ("readback" at the end) when the device has finished it: for profilers that measure
     /// the processor. Every stage becomes a submission of its own.
     void observeStages(std::function<void(std::string_view stage)> observer) { stageDone_ = std::move(observer); }
 
-    /// A target as the last frame left it: the output, or one that was kept.
+    /// A target as the last frame left it: the output, or one that was kept. Of one with a guard, what shows the frame.
     Image image(std::string_view target) const;
     Image output() const { return image(program_.desc().output); }
 
@@ -83,6 +84,8 @@ private:
     std::unique_ptr<TargetPool> targets_;
     std::unique_ptr<ExecutionContext> context_;
     std::vector<std::unique_ptr<StageExecution>> executions_;
+    glm::uvec2 frame_{0};      ///< Pixels of the last frame, without the guard.
+    std::uint32_t guard_ = 0;  ///< Pixels around it.
     std::vector<std::unique_ptr<Kept>> kept_;
     std::vector<RecordedBarrier> barriers_;
     std::function<void(std::string_view)> stageDone_;

@@ -28,7 +28,7 @@ enum class DepthUse { Test, Write };  ///< Write tests and writes.
 
 /// What the run is expected to draw: lets a stage weigh compile time against frame time.
 struct RunInfo {
-    std::uint32_t width = 1280, height = 720;
+    std::uint32_t width = 1280, height = 720;  ///< Of the picture; stages see it with the document's guard.
     std::uint32_t frames = 1;
     std::uint64_t pixels() const { return std::uint64_t(width) * height * frames; }
 };

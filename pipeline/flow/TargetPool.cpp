@@ -16,7 +16,6 @@ TargetPool::TargetPool(Device& device, const PipelineDesc& desc, const FramePlan
 
 void TargetPool::resize(glm::uvec2 extent) {
     if (extent == extent_) return;
-    checkFits(extent);
     textures_.clear();  // first: both sizes together might not fit
     extent_ = {0, 0};
     for (const TargetLife& life : plan_.lives) {
@@ -33,10 +32,14 @@ void TargetPool::checkFits(glm::uvec2 extent) const {
     for (const TargetDesc& target : desc_.targets) {
         const glm::uvec3 size = targetExtent(target, extent.x, extent.y);
         if (size.x > side || size.y > side) {
-            throw Error(target.where,
-                        fmt::format("target '{}' would be {}x{} pixels, and '{}' allows {}", target.name, size.x,
-                                    size.y, device_.deviceName(), side),
-                        "render smaller, or lower the target's scale");
+            const bool guarded = desc_.guard > 0 && !target.size;
+            Problem problem{Severity::Error, target.where,
+                            fmt::format("target '{}' would be {}x{} pixels{}, and '{}' allows {}", target.name, size.x,
+                                        size.y, guarded ? " with the guard" : "", device_.deviceName(), side),
+                            guarded ? "lower the pipeline's 'guard' or the target's scale, or render smaller"
+                                    : "render smaller, or lower the target's scale"};
+            if (guarded) problem.remarks.push_back({desc_.guardWhere, guardRemark()});
+            throw Error({std::move(problem)});
         }
         sum += targetBytes(target, extent.x, extent.y);
     }
@@ -45,11 +48,21 @@ void TargetPool::checkFits(glm::uvec2 extent) const {
         device_.heapBytes() -
         std::min(device_.heapBytes(), device_.allocatedBytes() - std::min(device_.allocatedBytes(), held));
     if (sum > free) {
-        throw Error(
+        Problem problem;
+        problem.message =
             fmt::format("the targets of pipeline '{}' at {}x{} need {} MiB; '{}' has {} MiB free of {} MiB", desc_.name,
-                        extent.x, extent.y, sum >> 20, device_.deviceName(), free >> 20, device_.heapBytes() >> 20),
-            "render smaller with --size, or scale targets down in the pipeline");
+                        extent.x, extent.y, sum >> 20, device_.deviceName(), free >> 20, device_.heapBytes() >> 20);
+        problem.help = "render smaller with --size, or scale targets down in the pipeline";
+        if (desc_.guard > 0) {
+            problem.help = "lower the pipeline's 'guard', " + problem.help;
+            problem.remarks.push_back({desc_.guardWhere, guardRemark()});
+        }
+        throw Error({std::move(problem)});
     }
+}
+
+std::string TargetPool::guardRemark() const {
+    return fmt::format("the guard renders {} % of the frame's height more on each side", desc_.guard);
 }
 
 GpuTexture TargetPool::makeTexture(const TargetDesc& target, const TargetLife& life, glm::uvec2 extent) const {

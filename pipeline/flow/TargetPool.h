@@ -19,8 +19,9 @@ public:
     /// Makes nothing yet: resize() does.
     TargetPool(Device& device, const PipelineDesc& desc, const FramePlan& plan);
 
-    /// Throws Error with the sum beforehand when the targets do not fit the device's heap or limits. The GPU must be
-    /// idle.
+    /// Throws Error with the sum when the targets do not fit the device's heap or limits at this size.
+    void checkFits(glm::uvec2 extent) const;
+    /// Makes the targets anew. The GPU must be idle.
     void resize(glm::uvec2 extent);
     glm::uvec2 extent() const { return extent_; }
 
@@ -31,9 +32,9 @@ public:
     std::uint64_t bytes() const;
 
 private:
-    void checkFits(glm::uvec2 extent) const;
     GpuTexture makeTexture(const TargetDesc& target, const TargetLife& life, glm::uvec2 extent) const;
     void clearUnwritten();
+    std::string guardRemark() const;
 
     Device& device_;
     const PipelineDesc& desc_;

@@ -17,6 +17,13 @@ const KeySpec kPipelineKeys[] = {
     {.key = "output",
      .kind = KeyKind::Text,
      .help = "Target that a frame is read back from. Needed unless the parent has one."},
+    {.key = "guard",
+     .kind = KeyKind::NumberOrOption,
+     .help = "Border that is rendered around the frame and cut off from every picture: percent of the frame's height "
+             "on each side, rounded up to a multiple of 4 pixels.",
+     .min = 0,
+     .max = 100,
+     .defaultText = "0"},
     {.key = "plugins",
      .kind = KeyKind::Array,
      .help = "Plugins the document needs; the caller has to allow each.",

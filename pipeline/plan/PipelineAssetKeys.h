@@ -12,7 +12,21 @@
 
 namespace crevice {
 
-enum class KeyKind { Bool, Condition, Integer, Number, Text, Choice, Object, Array, ObjectOrArray, NumberOrArray, Any };
+/// NumberOrOption is read before options have their values: "$option" stands as it is written.
+enum class KeyKind {
+    Bool,
+    Condition,
+    Integer,
+    Number,
+    NumberOrOption,
+    Text,
+    Choice,
+    Object,
+    Array,
+    ObjectOrArray,
+    NumberOrArray,
+    Any
+};
 
 struct KeySpec {
     const char* key;

@@ -20,6 +20,8 @@ bool hasKind(const Value& value, KeyKind kind) {
             return value.isInteger();
         case KeyKind::Number:
             return value.isNumber();
+        case KeyKind::NumberOrOption:
+            return value.isNumber() || (value.isString() && value.string().starts_with('$'));
         case KeyKind::Text:
         case KeyKind::Choice:
             return value.isString();
@@ -46,6 +48,7 @@ const char* kindWords(KeyKind kind) {
         case KeyKind::Integer:
             return "an integer";
         case KeyKind::Number:
+        case KeyKind::NumberOrOption:
             return "a number";
         case KeyKind::Text:
         case KeyKind::Choice:
@@ -98,6 +101,8 @@ std::string keyTypeName(const KeySpec& spec) {
             return "bool or condition";
         case KeyKind::Integer:
             return std::isinf(spec.max) ? "integer" : fmt::format("integer, {} … {}", spec.min, spec.max);
+        case KeyKind::NumberOrOption:
+            return fmt::format("number or \"$option\", {} … {}", spec.min, spec.max);
         case KeyKind::Number:
             if (std::isinf(spec.max)) return "number";
             return spec.exclusiveMin ? fmt::format("number above {}, up to {}", spec.min, spec.max)

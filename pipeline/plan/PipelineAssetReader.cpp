@@ -180,6 +180,23 @@ void TreeReader::readFlows(const Value* flows, const SourceLoc& document) {
     }
 }
 
+/// What an option stood for is seen only now.
+void readGuard(const Value& value, PipelineDesc& desc, Problems& problems) {
+    const KeySpec& spec = *pipelineKeys().find("guard");
+    desc.guardWhere = value.where();
+    if (value.isNumber() && value.number() >= spec.min && value.number() <= spec.max) {
+        desc.guard = value.number();
+    } else if (!value.isNumber()) {
+        problems.error(value.where(),
+                       fmt::format("'guard' of the pipeline must be a number, found {}",
+                                   value.isString() ? "'" + value.string() + "'" : value.toJson(-1)),
+                       fmt::format("expected: {}", keyTypeName(spec)));
+    } else {
+        problems.error(value.where(), fmt::format("'guard' of the pipeline is {}, out of range", value.number()),
+                       fmt::format("write a number from {} to {}", spec.min, spec.max));
+    }
+}
+
 }  // namespace
 
 PipelineDesc readPipelineTree(const Value& document, std::vector<OptionDesc> options, const std::string& file,
@@ -213,6 +230,7 @@ PipelineDesc readPipelineTree(const Value& document, std::vector<OptionDesc> opt
         problems.error(document.where(), "missing key 'output' in the pipeline",
                        "add \"output\" with the name of the target that holds the picture");
     }
+    if (const Value* guard = document.find("guard")) readGuard(*guard, desc, problems);
     checkPriorities(desc, {}, problems);
     return desc;
 }

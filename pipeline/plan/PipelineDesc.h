@@ -94,6 +94,8 @@ struct PipelineDesc {
     std::string help;
     std::string output;  ///< Target that a frame is read back from.
     SourceLoc outputWhere;
+    double guard = 0;  ///< Percent of the frame's height that is rendered beyond every edge and cut off.
+    SourceLoc guardWhere;
     std::vector<std::string> plugins;
     std::vector<TargetDesc> targets;  ///< Document order, parent before child.
     std::vector<BlockPin> blocks;

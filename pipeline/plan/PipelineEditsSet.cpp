@@ -59,9 +59,13 @@ public:
           dryRun_(dryRun) {}
 
     void apply() {
+        if (path_ == "guard") {
+            if (!dryRun_) setDeep(tree_.document, path_, value_, where_);
+            return;
+        }
         if (parts_.size() < 2 || std::any_of(parts_.begin(), parts_.end(), [](auto& p) { return p.empty(); })) {
             fail(fmt::format("'{}' is no path of a value", path_),
-                 "write it as 'Stage.params.name', 'Stage.material.name', 'Stage.key' or 'target.key'");
+                 "write it as 'Stage.params.name', 'Stage.material.name', 'Stage.key', 'target.key' or 'guard'");
             return;
         }
         std::vector<Value>& flows = treeFlows(tree_.document);

@@ -134,6 +134,13 @@ void mergePlugins(Value& document, const Value& plugins) {
     }
 }
 
+/// A good value of such a key: bad ones were reported when the file was read.
+bool isNumberOrOption(const Value& value, const KeySpec& spec) {
+    if (spec.kind != KeyKind::NumberOrOption) return false;
+    if (value.isString()) return value.string().starts_with('$');
+    return value.isNumber() && value.number() >= spec.min && value.number() <= spec.max;
+}
+
 /// The first list of flows stands as it is written; a child's flows find their places by priority.
 void mergeFlows(Value& document, const Value& flows, Problems& problems) {
     const bool first = !document.find("flows");
@@ -151,6 +158,7 @@ void mergeDocument(PipelineTree& tree, const Value& document, Problems& problems
         if (!spec) continue;  // Reported when the file was read, as are values of a wrong type.
         if (spec->kind == KeyKind::Text && value.isString() && member.key != "extends" && member.key != "$schema")
             tree.document.set(member.key, value, member.keyLoc);
+        if (isNumberOrOption(value, *spec)) tree.document.set(member.key, value, member.keyLoc);
         if (member.key == "plugins" && value.isArray()) mergePlugins(tree.document, value);
         if (member.key == "targets" && value.isObject())
             mergeSection(tree.document, value, "targets", "target", problems);

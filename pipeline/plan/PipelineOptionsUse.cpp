@@ -37,6 +37,11 @@ public:
         }
     }
 
+    /// The value of one key of an object.
+    void replaceKey(Value& owner, const char* key) {
+        if (Value* value = owner.find(key); value && !replaceOne(*value)) owner.erase(key);
+    }
+
     /// `enabled` of a flow or stage becomes a bool.
     void replaceCondition(Value& owner) {
         Value* enabled = owner.find("enabled");
@@ -146,6 +151,7 @@ private:
 
 void substituteOptions(Value& document, const std::vector<OptionDesc>& options, Problems& problems) {
     Substitution substitution(options, problems);
+    substitution.replaceKey(document, "guard");
     if (Value* targets = document.find("targets"))
         for (Member& target : targets->members()) substitution.replaceIn(target.value, {"help"});
     Value* flows = document.find("flows");

@@ -176,7 +176,8 @@ std::string quoted(const std::string& text) {
 std::string planTable(const FramePlan& plan, const PipelineDesc& desc, std::uint32_t width, std::uint32_t height,
                       const BindingMap* bindings) {
     std::uint64_t bytes = 0;
-    for (const TargetDesc& target : desc.targets) bytes += targetBytes(target, width, height);
+    const std::uint32_t guard = guardPixels(desc.guard, height);
+    for (const TargetDesc& target : desc.targets) bytes += targetBytes(target, width + 2 * guard, height + 2 * guard);
     std::vector<std::string> unused, holding, disabled;
     for (const TargetLife& life : plan.lives) {
         if (life.firstUse < 0) {
@@ -189,8 +190,12 @@ std::string planTable(const FramePlan& plan, const PipelineDesc& desc, std::uint
         if (!use.enabled) disabled.push_back(use.stage);
     }
     std::string text = layOut(tableRows(plan, bindings));
-    text += fmt::format(" {}  Memory {}×{}: {:.1f} MiB.  Unused: {}\n", legend(plan), width, height,
-                        static_cast<double>(bytes) / (1 << 20), unused.empty() ? "–" : join(unused));
+    text +=
+        fmt::format(" {}  Memory {}×{}: {:.1f} MiB.  Unused: {}\n", legend(plan), width + 2 * guard, height + 2 * guard,
+                    static_cast<double>(bytes) / (1 << 20), unused.empty() ? "–" : join(unused));
+    if (guard > 0)
+        text += fmt::format(" Guard: {} pixels on each side ({} % of the height); pictures are cropped to {}×{}\n",
+                            guard, desc.guard, width, height);
     if (!holding.empty()) text += fmt::format(" Never written, holding the clear value: {}\n", join(holding));
     if (!disabled.empty()) text += fmt::format(" Disabled: {}\n", join(disabled));
     return text;

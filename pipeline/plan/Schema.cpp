@@ -56,6 +56,7 @@ Value typeSchema(const KeySpec& spec) {
             return json(kCondition);
         case KeyKind::Integer:
         case KeyKind::Number:
+        case KeyKind::NumberOrOption:
             return numberSchema(spec);
         case KeyKind::Text:
             return json(R"({"type":"string"})");
@@ -94,7 +95,7 @@ void addDefault(Value& schema, const KeySpec& spec) {
 
 Value keySchema(const KeySpec& spec, bool options) {
     Value schema = typeSchema(spec);
-    if (options && takesOption(spec)) schema = orOption(std::move(schema));
+    if (spec.kind == KeyKind::NumberOrOption || (options && takesOption(spec))) schema = orOption(std::move(schema));
     schema.set("description", text(spec.help));
     addDefault(schema, spec);
     return schema;

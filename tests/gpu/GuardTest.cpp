@@ -1,0 +1,158 @@
+// The guard on the GPU: the picture shows the same, sizes are the frame's, and occluders outside of it count.
+#include <array>
+
+#include "FrameFixture.h"
+
+namespace crevice {
+namespace {
+
+constexpr const char* kDocument = R"({
+  "extends": "ao-deferred", "guard": "$border",
+  "options": { "border": { "type": "number", "default": 0 } }
+})";
+
+/// Rasterisers interpolate from a corner of the target: 2^-24 for each of the up to 600 pixels of the widest one here.
+constexpr float kDepthRounding = 4e-5f;
+constexpr float kNormalRounding = 2e-3f;  ///< of a half float, twice
+/// Rasterisers snap corners to 1/256 of a pixel: at a silhouette, a pixel may show the other side.
+constexpr std::size_t kMostSnapped = 3;
+
+class GuardFrame : public FrameTest {
+protected:
+    void loadGuarded(int percent, Options options = {}) {
+        options["border"] = std::to_string(percent);
+        loadDocument(kDocument, options);
+    }
+    std::array<Image, 2> geometry(const View& view) {
+        View keeping = view;
+        keeping.keep = {"viewDepth", "cc_gbuffer_normalMap"};
+        renderer_->render(keeping);
+        return {renderer_->target("viewDepth"), renderer_->target("cc_gbuffer_normalMap")};
+    }
+    /// Looks into the shipped scene from its side.
+    static View sideView(bool orthographic, glm::vec2 lensShift, std::uint32_t width, std::uint32_t height) {
+        Camera camera = Camera::lookAt({3, 2, 4}, {0, 0.6f, 0});
+        camera.orthographic = orthographic;
+        camera.orthoHeight = 3;
+        camera.lensShift = lensShift;
+        return viewOf(camera, width, height);
+    }
+};
+
+/// Pixels whose depth differs by more than rounding, or whose normal does.
+std::size_t countUnlike(const std::array<Image, 2>& a, const std::array<Image, 2>& b) {
+    std::size_t count = 0;
+    for (std::uint32_t y = 0; y < a[0].height; ++y) {
+        for (std::uint32_t x = 0; x < a[0].width; ++x) {
+            const float d = a[0].at(x, y).x, e = b[0].at(x, y).x;
+            const float turn = glm::distance(glm::vec3(a[1].at(x, y)), glm::vec3(b[1].at(x, y)));
+            count += std::abs(d - e) > kDepthRounding * d || turn > kNormalRounding ? 1 : 0;
+        }
+    }
+    return count;
+}
+
+TEST_F(GuardFrame, GeometryStaysInItsPixels) {
+    renderer_->setScene(shippedScene("default"));
+    std::vector<View> views;
+    for (const bool orthographic : {false, true})
+        for (const glm::vec2 shift : {glm::vec2(0), glm::vec2(0.4f, -0.25f)})
+            views.push_back(sideView(orthographic, shift, 160, 90));
+    std::vector<std::array<Image, 2>> plain;
+    loadGuarded(0, {{"ao", "off"}});
+    for (const View& view : views) plain.push_back(geometry(view));
+    for (const int percent : {10, 100}) {
+        loadGuarded(percent, {{"ao", "off"}});
+        for (std::size_t i = 0; i < views.size(); ++i) {
+            const auto guarded = geometry(views[i]);
+            ASSERT_EQ(guarded[0].width, 160u);
+            ASSERT_EQ(guarded[0].height, 90u);
+            EXPECT_LE(countUnlike(plain[i], guarded), kMostSnapped) << percent << " %, view " << i;
+        }
+    }
+}
+
+/// Looks at the wall z = 0, of which a square of 4 is seen; past its right edge, a beam stands out from the wall.
+class GuardBeam : public GuardFrame {
+protected:
+    void SetUp() override {
+        GuardFrame::SetUp();
+        Scene scene = darkScene();
+        addWall(scene, 40);
+        addBlock(scene, {2.4f, 0, 0.5f}, {0.4f, 40, 1});
+        scene.lights.push_back(directional({0.3f, -0.4f, -1}, 2));
+        renderer_->setScene(std::move(scene));
+    }
+    static View frame() { return viewOf(frontCamera(4), 64, 64); }
+    const Options options_{{"radius", "1"}, {"resolution", "half"}};
+};
+
+TEST_F(GuardBeam, OccludersBeyondTheEdgeCount) {
+    const auto openness = [&](int percent) {
+        loadGuarded(percent, {{"radius", "1"}});
+        return target(frame(), "cc_ssaoBlurMap");
+    };
+    const Image plain = openness(0), guarded = openness(25);
+    for (std::uint32_t y = 0; y < 64; ++y) {
+        EXPECT_GE(plain.at(61, y).x, 0.99f) << y;
+        EXPECT_LE(guarded.at(61, y).x, 0.9f) << y;   // Three pixels from the edge, a quarter of a unit from the beam.
+        EXPECT_GE(guarded.at(20, y).x, 0.99f) << y;  // Farther away than the radius.
+    }
+}
+
+TEST_F(GuardBeam, FrameIsCutFromTheLargerOne) {
+    const std::vector<std::string> targets{
+        "cc_gbuffer_normalMap",  "viewDepth",  "cc_ssaoMap",  "aoPacked", "cc_ssaoBlurMap",
+        "cc_lighting_resultMap", "finalColor", "cc_shadowMap"};
+    const auto render = [&](int percent, View view) {
+        loadGuarded(percent, options_);
+        view.keep = targets;
+        std::vector<Image> images{renderer_->render(view)};
+        for (const std::string& name : targets) images.push_back(renderer_->target(name));
+        return images;
+    };
+    // Guard 50 of a square frame doubles its sides: the projection is the larger camera's to the bit.
+    const std::vector<Image> guarded = render(50, frame());
+    const std::vector<Image> larger = render(0, viewOf(frontCamera(8), 128, 128));
+    for (std::size_t i = 0; i < guarded.size(); ++i) {
+        const std::string name = i == 0 ? "the picture" : targets[i - 1];
+        const bool fixed = name == "cc_shadowMap", half = name == "cc_ssaoMap" || name == "aoPacked";
+        const std::uint32_t side = fixed ? larger[i].width : half ? 32 : 64;
+        const std::uint32_t border = fixed ? 0 : side / 2;
+        ASSERT_EQ(guarded[i].width, side) << name;
+        ASSERT_EQ(guarded[i].height, fixed ? larger[i].height : side) << name;
+        EXPECT_EQ(guarded[i], cropped(larger[i], glm::uvec2(border), {guarded[i].width, guarded[i].height})) << name;
+    }
+}
+
+TEST_F(GuardBeam, SizesChangeFromFrameToFrame) {
+    loadGuarded(10, options_);
+    for (const glm::uvec2 size : {glm::uvec2(64, 64), glm::uvec2(50, 33), glm::uvec2(33, 50)}) {
+        const View view = viewOf(frontCamera(4), size.x, size.y);
+        const Image half = target(view, "cc_ssaoMap");
+        EXPECT_EQ(glm::uvec2(half.width, half.height), (size + 1u) / 2u);
+        const Image full = target(view, "viewDepth");
+        EXPECT_EQ(glm::uvec2(full.width, full.height), size);
+        EXPECT_NEAR(full.at(size.x / 2, size.y / 2).x, 5, 1e-4f);
+    }
+}
+
+TEST_F(GuardBeam, FrameAboveTheLimitNamesTheGuard) {
+    loadGuarded(100);
+    const std::uint32_t side = renderer_->device().limits().maxImageDimension2D;
+    const Image before = renderer_->render(frame());
+    try {
+        renderer_->render(viewOf(frontCamera(4), side, 8));
+        FAIL() << "rendered";
+    } catch (const Error& error) {
+        const std::string text = formatError(error);
+        EXPECT_NE(text.find("pixels with the guard, and '"), std::string::npos) << text;
+        EXPECT_NE(text.find("note: the guard renders 100 % of the frame's height more on each side"), std::string::npos)
+            << text;
+        EXPECT_NE(text.find("help: lower the pipeline's 'guard'"), std::string::npos) << text;
+    }
+    EXPECT_EQ(renderer_->render(frame()), before) << "the renderer goes on";
+}
+
+}  // namespace
+}  // namespace crevice
