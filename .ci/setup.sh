@@ -10,7 +10,7 @@ packages=(
   libglm-dev libtinygltf-dev nlohmann-json3-dev libyaml-cpp-dev
   libcli11-dev libfmt-dev libspdlog-dev
   libspng-dev libtinyexr-dev zlib1g-dev
-  libembree-dev
+  libembree-dev libjs-chart.js
   libgtest-dev libgmock-dev libbenchmark-dev
 )
 # ISA-L has no package on every architecture: PNG files are then written by libspng.

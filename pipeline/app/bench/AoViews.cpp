@@ -35,7 +35,8 @@ public:
         readList(reader.take("radii"), "'radii'", [&](const Value& item) { readRadius(item); });
         readList(reader.take("scenes"), "'scenes'", [&](const Value& item) { readScene(item); });
         reader.finish();
-        if (list_.radii.empty()) problems_.error(document_.where(), "no 'radii'", "write \"radii\": [0.025]");
+        if (document_.isObject() && !document_.find("radii"))
+            problems_.error(document_.where(), "no 'radii'", "write \"radii\": [0.025]");
         problems_.throwIfErrors();
         std::sort(list_.radii.begin(), list_.radii.end());
         return std::move(list_);

@@ -146,6 +146,12 @@ std::string summary(const AoResults& results) {
     return text + "*: nothing measured is both cheaper and nearer to the truth\n";
 }
 
+/// Empty when there is no such file yet.
+std::string readMarkdown(const BenchAoOptions& options) {
+    std::error_code failed;
+    return std::filesystem::exists(options.markdown, failed) ? readText(options.markdown) : std::string();
+}
+
 void writeResults(const BenchAoOptions& options, const AoResults& results, const AssetRoots& roots) {
     const std::filesystem::path folder = options.out;
     OutputFiles files;
@@ -153,9 +159,7 @@ void writeResults(const BenchAoOptions& options, const AoResults& results, const
     files.add(folder / "results.json", aoJson(results));
     files.add(folder / "index.html", aoPage(results, roots));
     if (!options.markdown.empty()) {
-        std::error_code failed;
-        const bool exists = std::filesystem::exists(options.markdown, failed);
-        files.add(options.markdown, aoMarkdown(results, exists ? readText(options.markdown) : ""));
+        files.add(options.markdown, aoMarkdown(results, readMarkdown(options)));
     }
     print(summary(results));
     for (const std::filesystem::path& path : files.commit()) print(path.string() + "\n");
@@ -163,7 +167,10 @@ void writeResults(const BenchAoOptions& options, const AoResults& results, const
 
 int runBenchAo(const BenchAoOptions& options) {
     checkFolder(options.out);
-    if (!options.markdown.empty()) checkOutputPath("--markdown", options.markdown);
+    if (!options.markdown.empty()) {
+        checkOutputPath("--markdown", options.markdown);
+        aoMarkdown({}, readMarkdown(options));  // says now whether the file has its marks
+    }
     const AssetRoots roots = AssetRoots::standard();
     AoBenchSettings settings;
     settings.sizes.clear();
