@@ -249,7 +249,8 @@ TEST_F(BenchAoTest, PageWorksInABrowser) {
 
 TEST_F(BenchAoTest, MistakesAreNamed) {
     expectRefused("bench-ao crease", "no output given", "-o FOLDER");
-    expectRefused("bench-ao crease -o gone", "-o: folder 'gone' does not exist", "mkdir -p gone");
+    expectRefused("bench-ao crease -o gone/deeper", "-o: folder 'gone/deeper' cannot be made", "make its parent");
+    expectRefused("bench-ao crease -o views.json", "-o: folder 'views.json' cannot be made", "one that is there");
     expectRefused("bench-ao crease -o . --techniques gtoa", "--techniques: there is no 'gtoa'", "did you mean 'gtao'?");
     expectRefused("bench-ao crease -o . --qualities hihg", "--qualities: there is no 'hihg'", "did you mean 'high'?");
     expectRefused("bench-ao crease -o . --variant vbao", "--variant: 'vbao' names no technique and preset",

@@ -73,6 +73,7 @@ AoCase parseAoCase(const AssetRoots& roots, std::string_view text) {
         throw Error(fmt::format("--variant: '{}' names no technique and preset", text),
                     "write --variant \"vbao high guard=10\"");
     }
+    const bool hasGuardOption = findOption(loadPipeline(roots, {aoMapPipeline(roots), {}, {}}), "guard");
     for (std::string word; words >> word;) {
         const std::size_t sign = word.find('=');
         if (sign == std::string::npos || sign == 0) {
@@ -80,7 +81,7 @@ AoCase parseAoCase(const AssetRoots& roots, std::string_view text) {
                         "write --variant \"vbao high guard=10\"");
         }
         const std::string name = word.substr(0, sign), value = word.substr(sign + 1);
-        if (name.find('.') != std::string::npos) {
+        if (name.find('.') != std::string::npos || (name == "guard" && !hasGuardOption)) {
             c.sets.push_back({name, value});
         } else {
             c.options[name] = value;
@@ -113,7 +114,8 @@ std::vector<AoCase> listAoCases(const AssetRoots& roots, const AoCaseChoice& cho
     checkNames("--qualities", choice.qualities, {qualities.begin(), qualities.end()});
     std::vector<std::string> variants = choice.variants;
     const bool isAll = variants.empty() && choice.techniques.empty() && choice.qualities.empty();
-    if (isAll && findOption(desc, "guard")) {
+    if (isAll) {
+        variants.push_back("vbao high thickness=0.25");  // what its help names for thin things
         variants.push_back("vbao high guard=10");
         if (findOption(desc, "backFaces")) variants.push_back("vbao ultra guard=25 backFaces=true");
     }

@@ -100,13 +100,16 @@ private:
     std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
+/// The folder need not be there yet: it is made when there is something to put into it.
 void checkFolder(const std::string& out) {
     std::error_code failed;
     if (out.empty()) throw Error("no output given", "say where the results go: -o FOLDER");
-    if (!std::filesystem::is_directory(out, failed)) {
-        throw Error(fmt::format("-o: folder '{}' does not exist", out), fmt::format("make it first: mkdir -p {}", out));
+    const std::filesystem::path folder = std::filesystem::absolute(out).lexically_normal();
+    if (std::filesystem::is_directory(folder, failed)) return checkOutputPath("-o", folder / "results.csv");
+    const std::filesystem::path parent = (folder.has_filename() ? folder : folder.parent_path()).parent_path();
+    if (std::filesystem::exists(folder, failed) || !std::filesystem::is_directory(parent, failed)) {
+        throw Error(fmt::format("-o: folder '{}' cannot be made", out), "name one that is there, or make its parent");
     }
-    checkOutputPath("-o", std::filesystem::path(out) / "results.csv");
 }
 
 /// As a reader can repeat it.
@@ -154,6 +157,7 @@ std::string readMarkdown(const BenchAoOptions& options) {
 
 void writeResults(const BenchAoOptions& options, const AoResults& results, const AssetRoots& roots) {
     const std::filesystem::path folder = options.out;
+    std::filesystem::create_directories(folder);
     OutputFiles files;
     files.add(folder / "results.csv", aoCsv(results));
     files.add(folder / "results.json", aoJson(results));
