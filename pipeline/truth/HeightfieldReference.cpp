@@ -6,6 +6,7 @@
 #include <atomic>
 #include <cassert>
 #include <cmath>
+#include <string>
 #include <thread>
 
 #include <glm/gtc/constants.hpp>
@@ -13,6 +14,7 @@
 #include "truth/DepthSurface.h"
 #include "truth/DirectionFan.h"
 #include "truth/Sampling.h"
+#include "truth/TruthCache.h"
 
 namespace crevice {
 namespace {
@@ -174,14 +176,10 @@ private:
     DirectionFan fan_;
 };
 
-}  // namespace
-
-std::vector<float> traceHeightfield(const HeightfieldInput& input, const HeightfieldSettings& settings) {
+void traceRows(const HeightfieldInput& input, const HeightfieldSettings& settings, std::vector<float>& map) {
     const glm::uvec2 size = input.size;
-    assert(input.viewDepth.size() == std::size_t(size.x) * size.y && input.normal.size() == input.viewDepth.size());
     const DepthSurface surface(input);
     const glm::mat3 toView(input.camera.view);
-    std::vector<float> map(input.viewDepth.size(), 1.0f);
     std::atomic<std::uint32_t> nextRow{0};
     const auto work = [&](bool reports) {
         Tracer tracer(surface, settings);
@@ -206,6 +204,18 @@ std::vector<float> traceHeightfield(const HeightfieldInput& input, const Heightf
         for (unsigned i = 1; i < threads; ++i) helpers.emplace_back(work, false);
         work(true);
     }
+}
+
+}  // namespace
+
+std::vector<float> traceHeightfield(const HeightfieldInput& input, const HeightfieldSettings& settings) {
+    assert(input.viewDepth.size() == std::size_t(input.size.x) * input.size.y);
+    assert(input.normal.size() == input.viewDepth.size() && settings.radius > 0 && settings.thickness > 0);
+    std::vector<float> map(input.viewDepth.size(), 1.0f);
+    const std::string key = settings.cache ? heightfieldKey(input, settings) : std::string();
+    if (settings.cache && loadHeightfield(*settings.cache, key, map)) return map;
+    traceRows(input, settings, map);
+    if (settings.cache) storeHeightfield(*settings.cache, key, map);
     return map;
 }
 

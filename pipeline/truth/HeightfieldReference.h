@@ -3,8 +3,9 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <functional>
-#include <limits>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -26,6 +27,7 @@ struct HeightfieldSettings {
     std::uint32_t seed = 1;
     unsigned threads = 0;                   ///< 0 = as many as the machine has. The result does not depend on it.
     std::function<void(float)> progress{};  ///< Share done, called from the calling thread.
+    std::optional<std::filesystem::path> cache{};  ///< As AmbientSettings::cache.
 };
 
 /// Row by row from the top; sky is 1.

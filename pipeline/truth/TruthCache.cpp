@@ -1,18 +1,17 @@
-// A file: magic, the arrays one after the other (their sizes follow from the settings), the content hash of all that.
+// Keys take in large arrays as their hashes; the sizes of the arrays in a file follow from what is asked.
 #include "truth/TruthCache.h"
 
-#include <cstring>
 #include <span>
 #include <type_traits>
 
 #include "core/Files.h"
+#include "truth/CacheFile.h"
 
 namespace crevice {
 namespace {
 
 constexpr std::string_view kMagic = "CREVICE TRUTH 1\n";  // raised whenever the tracer gives other numbers
-constexpr std::size_t kHashLength = 32;
-constexpr std::size_t kMaxBytes = std::size_t(2) << 30;
+constexpr std::string_view kHeightfieldMagic = "CREVICE HEIGHTFIELD 1\n";
 
 /// Collects what a key depends on. Large arrays go in as their hashes.
 class KeyText {
@@ -137,40 +136,37 @@ std::string truthKey(const Scene& scene, const Camera& camera, const glm::uvec2&
 }
 
 bool loadTruth(const std::filesystem::path& folder, const std::string& key, AmbientMap& map) {
-    try {
-        std::error_code error;
-        const auto file = fileOf(folder, key);
-        if (!std::filesystem::is_regular_file(file, error)) return false;
-        const std::vector<std::byte> bytes = readBytes(file, kMaxBytes);
-        std::size_t expected = kMagic.size() + kHashLength;
-        forEachArray(map, [&](const auto& values) { expected += std::span(values).size_bytes(); });
-        const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-        if (text.size() != expected || !text.starts_with(kMagic)) return false;
-        const std::string_view body = text.substr(0, text.size() - kHashLength);
-        if (contentHash(body) != text.substr(body.size())) return false;
-        std::size_t at = kMagic.size();
-        forEachArray(map, [&](auto& values) {
-            std::memcpy(values.data(), body.data() + at, std::span(values).size_bytes());
-            at += std::span(values).size_bytes();
-        });
-        return true;
-    } catch (const Error&) {
-        return false;
-    }
+    std::vector<std::span<std::byte>> arrays;
+    forEachArray(map, [&](auto& values) { arrays.push_back(std::as_writable_bytes(std::span(values))); });
+    return loadArrays(fileOf(folder, key), kMagic, arrays);
 }
 
 void storeTruth(const std::filesystem::path& folder, const std::string& key, const AmbientMap& map) {
-    std::string text(kMagic);
-    forEachArray(map, [&](const auto& values) {
-        text.append(reinterpret_cast<const char*>(values.data()), std::span(values).size_bytes());
-    });
-    text += contentHash(text);
-    if (text.size() > kMaxBytes) return;
-    try {
-        writeFileAtomically(fileOf(folder, key), text);
-    } catch (const Error&) {
-        // A full or read-only disk costs time, not correctness.
-    }
+    std::vector<std::span<const std::byte>> arrays;
+    forEachArray(map, [&](const auto& values) { arrays.push_back(std::as_bytes(std::span(values))); });
+    storeArrays(fileOf(folder, key), kMagic, arrays);
+}
+
+std::string heightfieldKey(const HeightfieldInput& input, const HeightfieldSettings& settings) {
+    KeyText key;
+    key.add(kHeightfieldMagic);
+    addCamera(key, input.camera);
+    key.add(input.size.x);
+    key.add(input.size.y);
+    key.addHash(input.viewDepth);
+    key.addHash(input.normal);
+    key.addHash(input.isCounted);
+    for (const float value : {settings.radius, settings.thickness}) key.add(value);
+    for (const std::uint32_t value : {settings.slices, settings.steps, settings.seed}) key.add(value);
+    return key.hash();
+}
+
+bool loadHeightfield(const std::filesystem::path& folder, const std::string& key, std::vector<float>& map) {
+    return loadArrays(fileOf(folder, key), kHeightfieldMagic, {std::as_writable_bytes(std::span(map))});
+}
+
+void storeHeightfield(const std::filesystem::path& folder, const std::string& key, const std::vector<float>& map) {
+    storeArrays(fileOf(folder, key), kHeightfieldMagic, {std::as_bytes(std::span(map))});
 }
 
 }  // namespace crevice

@@ -3,8 +3,10 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "truth/AmbientReference.h"
+#include "truth/HeightfieldReference.h"
 
 namespace crevice {
 
@@ -17,5 +19,11 @@ std::string truthKey(const Scene& scene, const Camera& camera, const glm::uvec2&
 bool loadTruth(const std::filesystem::path& folder, const std::string& key, AmbientMap& map);
 /// Writes aside, then renames. A folder that cannot be written is no error.
 void storeTruth(const std::filesystem::path& folder, const std::string& key, const AmbientMap& map);
+
+/// The same for heightfields: of depth, normals, mask, camera and settings.
+std::string heightfieldKey(const HeightfieldInput& input, const HeightfieldSettings& settings);
+/// `map` has the right size.
+bool loadHeightfield(const std::filesystem::path& folder, const std::string& key, std::vector<float>& map);
+void storeHeightfield(const std::filesystem::path& folder, const std::string& key, const std::vector<float>& map);
 
 }  // namespace crevice

@@ -4,6 +4,8 @@
 #include <fstream>
 #include <functional>
 #include <map>
+#include <set>
+#include <utility>
 
 #include "TruthTools.h"
 #include "core/Files.h"
@@ -61,7 +63,7 @@ TEST_F(TruthCache, TheSecondRunTracesNothing) {
     ASSERT_EQ(files().size(), 1u);
     int reports = 0;
     settings_.progress = [&](float) { ++reports; };
-    settings_.threads = 3;
+    settings_.threads = 1;  // the calling thread reports
     const AmbientMap second = trace();
     EXPECT_TRUE(second.fromCache);
     EXPECT_EQ(reports, 0) << "the tracer ran";
@@ -190,6 +192,58 @@ TEST_F(TruthCache, AMovedTriangleIsTraced) {
     EXPECT_FALSE(second.fromCache);
     EXPECT_NE(first.layers[0].openness, second.layers[0].openness);
     EXPECT_EQ(files().size(), 2u);
+}
+
+TEST_F(TruthCache, Heightfields) {
+    const AmbientMap seen = trace();
+    fs::remove_all(folder_);
+    fs::create_directories(folder_);
+    HeightfieldInput input{seen.size, camera_, seen.viewDepth, seen.normal};
+    int reports = 0;
+    HeightfieldSettings settings{
+        .radius = 1, .slices = 4, .threads = 1, .progress = [&](float) { ++reports; }, .cache = folder_};
+    const std::vector<float> first = traceHeightfield(input, settings);
+    EXPECT_EQ(files().size(), 1u);
+    EXPECT_GT(std::exchange(reports, 0), 0);
+    EXPECT_EQ(traceHeightfield(input, settings), first);
+    EXPECT_EQ(reports, 0) << "it was traced again";
+    std::vector<float> moved = seen.viewDepth;
+    moved[7] *= 1.001f;
+    std::vector<std::uint8_t> mask(moved.size(), 1);
+    mask[3] = 0;
+    std::vector<glm::vec3> tilted = seen.normal;
+    tilted[9] = {0, 0, 1};
+    std::set<std::string> keys = {heightfieldKey(input, settings)};
+    const auto expectNew = [&](const HeightfieldInput& other, const HeightfieldSettings& asked, const char* what) {
+        EXPECT_TRUE(keys.insert(heightfieldKey(other, asked)).second) << what;
+    };
+    HeightfieldInput other = input;
+    other.viewDepth = moved;
+    expectNew(other, settings, "depth");
+    other = input;
+    other.normal = tilted;
+    expectNew(other, settings, "normal");
+    other = input;
+    other.isCounted = mask;
+    expectNew(other, settings, "mask");
+    other = input;
+    other.camera.fovY = 1;
+    expectNew(other, settings, "camera");
+    HeightfieldSettings asked = settings;
+    asked.radius = 2;
+    expectNew(input, asked, "radius");
+    asked = settings;
+    asked.thickness = 1;
+    expectNew(input, asked, "thickness");
+    asked = settings;
+    asked.steps = 7;
+    expectNew(input, asked, "steps");
+    asked = settings;
+    asked.slices = 7;
+    expectNew(input, asked, "slices");
+    asked = settings;
+    asked.seed = 7;
+    expectNew(input, asked, "seed");
 }
 
 }  // namespace

@@ -1,26 +1,18 @@
 // `crevice reference`: ambient occlusion by ray tracing, and how far the maps of other techniques are from it.
 #include <algorithm>
-#include <limits>
 #include <memory>
 #include <vector>
 
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
-#include "app/commands/ArgumentText.h"
 #include "app/commands/Commands.h"
-#include "app/commands/Console.h"
 #include "app/commands/OutputFiles.h"
+#include "app/commands/ReferenceRequest.h"
 #include "app/commands/ReferenceTables.h"
 #include "app/commands/SceneFiles.h"
-#include "app/commands/ViewOptions.h"
-#include "core/Error.h"
-#include "core/Files.h"
-#include "core/Text.h"
 #include "flow/FrameData.h"
-#include "truth/AmbientReference.h"
 #include "truth/ErrorHeat.h"
-#include "truth/HeightfieldReference.h"
 
 namespace crevice {
 namespace {
@@ -32,148 +24,14 @@ constexpr const char* kExamples =
     "  crevice reference crease -o truth-{radius}-{falloff}.exr --size 64x36 --samples 64 --radius 0.2 --radius 0.5 "
     "--falloff hard --falloff matched:cocos\n";
 
-constexpr std::uint32_t kMaxSamples = 1u << 20, kMaxSlices = 4096;
-
-struct ReferenceOptions {
-    std::string scene, out, samples = "1024", seed = "1", depth, heightfield, thickness = "0.5", slices = "64";
-    std::vector<std::string> radius, falloff, measure, heat;
-    ViewOptions view;
-    ConsoleOptions console;
-    bool allowOutside = false, noCache = false;
-};
-
-/// 0 = auto.
-float readRadius(const std::string& text) {
-    if (text == "auto") return 0;
-    const double radius = parseNumber("--radius", text);
-    if (radius <= 0 || radius > 1e30) {
-        throw Error(fmt::format("--radius: '{}' is out of range", text), "write a length above 0, or auto");
-    }
-    return static_cast<float>(radius);
-}
-
-const Falloff& readFalloff(const std::string& text) {
-    if (const Falloff* falloff = findFalloff(text)) return *falloff;
-    throw Error(fmt::format("--falloff: '{}' is not a falloff", text), didYouMean(text, falloffNames(), "falloffs"));
-}
-
-float readThickness(const std::string& text) {
-    if (text == "infinite") return std::numeric_limits<float>::infinity();
-    const double thickness = parseNumber("--thickness", text);
-    if (thickness <= 0 || thickness > 1e6) {
-        throw Error(fmt::format("--thickness: '{}' is out of range", text), "write a share of the radius, or infinite");
-    }
-    return static_cast<float>(thickness);
-}
-
-Image readMap(const char* option, const std::string& path, const glm::uvec2& size) {
-    Image image = readImage(path);
-    if (image.width == size.x && image.height == size.y) return image;
-    throw Error(fmt::format("{}: '{}' is {}x{} and the reference {}x{}", option, path, image.width, image.height,
-                            size.x, size.y),
-                "render both with the same --size");
-}
-
-std::vector<float> redChannel(const Image& image) {
-    std::vector<float> values;
-    for (std::uint32_t y = 0; y < image.height; ++y) {
-        for (std::uint32_t x = 0; x < image.width; ++x) values.push_back(image.at(x, y).x);
-    }
-    return values;
-}
-
-/// A map to make: its radius as it was written, for the name of its file.
-struct Wanted {
-    std::string radiusText;
-    AmbientTerm term;
-};
-
-std::vector<Wanted> readWanted(const ReferenceOptions& options) {
-    const std::vector<std::string> radii = options.radius.empty() ? std::vector<std::string>{"auto"} : options.radius;
-    const std::vector<std::string> falloffs =
-        options.falloff.empty() ? std::vector<std::string>{"hard"} : options.falloff;
-    std::vector<Wanted> wanted;
-    for (const std::string& radius : radii) {
-        for (const std::string& falloff : falloffs)
-            wanted.push_back({radius, {readRadius(radius), &readFalloff(falloff)}});
-    }
-    return wanted;
-}
-
-std::string replaceAll(std::string text, std::string_view from, std::string_view to) {
-    for (std::size_t at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size()))
-        text.replace(at, from.size(), to);
-    return text;
-}
-
-/// "truth-{radius}-{falloff}.exr" with the names of a map.
-std::string nameOf(const std::string& pattern, const Wanted& wanted) {
-    const std::string falloff = replaceAll(wanted.term.falloff->name, ":", "-");
-    return replaceAll(replaceAll(pattern, "{radius}", wanted.radiusText), "{falloff}", falloff);
-}
-
-/// One name per map. Throws Error when two would get the same.
-std::vector<std::string> namesOf(const char* option, const std::string& pattern, const std::vector<Wanted>& wanted) {
-    std::vector<std::string> names;
-    for (const Wanted& one : wanted) {
-        names.push_back(nameOf(pattern, one));
-        if (std::count(names.begin(), names.end(), names.back()) > 1) {
-            throw Error(fmt::format("{}: two maps would both be written to '{}'", option, names.back()),
-                        "name them by what differs: truth-{radius}-{falloff}.exr");
-        }
-        checkPicturePath(option, names.back());
-    }
-    return names;
-}
-
-/// All that is checked before anything is loaded.
-struct Request {
-    ViewChoice view;
-    std::vector<Wanted> wanted;
-    std::vector<Wanted> radii{};  ///< One per radius: the heightfield knows the hard falloff alone.
-    std::vector<std::string> names{}, heightfieldNames{};
-    AmbientSettings settings{};
-    HeightfieldSettings heightfield{};
-    std::vector<std::vector<float>> measured{};
-    Image depth{};
-};
-
-Request readRequest(const ReferenceOptions& options) {
-    if (options.scene.empty()) throw Error("no scene given", "name one: crevice reference crease -o truth.exr");
-    if (options.out.empty()) throw Error("no output given", "say where the map goes: -o truth.exr");
-    Request request{.view = readView(options.view), .wanted = readWanted(options)};
-    request.names = namesOf("-o", options.out, request.wanted);
-    for (const Wanted& one : request.wanted) {
-        const bool known = std::any_of(request.radii.begin(), request.radii.end(),
-                                       [&](const Wanted& other) { return other.radiusText == one.radiusText; });
-        if (!known) request.radii.push_back({one.radiusText, {one.term.radius, &hardFalloff()}});
-    }
-    if (!options.heightfield.empty())
-        request.heightfieldNames = namesOf("--heightfield", options.heightfield, request.radii);
-    request.settings.samples = parseCount("--samples", options.samples, 2, kMaxSamples);
-    request.settings.seed = parseCount("--seed", options.seed, 0, std::numeric_limits<std::uint32_t>::max());
-    if (!options.noCache) request.settings.cache = cacheFolder("truth");
-    request.heightfield.thickness = readThickness(options.thickness);
-    request.heightfield.slices = parseCount("--slices", options.slices, 1, kMaxSlices);
-    for (const std::string& path : options.measure)
-        request.measured.push_back(redChannel(readMap("--measure", path, request.view.size)));
-    if (!options.depth.empty()) request.depth = readMap("--depth", options.depth, request.view.size);
-    for (const std::string& path : options.heat) checkPicturePath("--heat", path);
-    if (options.heat.size() > options.measure.size()) {
-        throw Error(fmt::format("--heat: '{}' has no map", options.heat[options.measure.size()]),
-                    "give a --measure for each --heat, in the same order");
-    }
-    return request;
-}
-
 /// What one run yields.
 struct Traced {
     Camera camera;
     AmbientMap map{};
-    std::vector<std::vector<float>> heightfields{};  ///< As Request::radii; empty when not asked for.
+    std::vector<std::vector<float>> heightfields{};  ///< As ReferenceRequest::radii; empty when not asked for.
 };
 
-void noteLayers(const Log& log, const Request& request, const AmbientMap& map) {
+void noteLayers(const Log& log, const ReferenceRequest& request, const AmbientMap& map) {
     const double sky = 100 - 100 * static_cast<double>(map.countedCount()) / (double(map.size.x) * map.size.y);
     for (std::size_t i = 0; i < map.layers.size(); ++i) {
         const AmbientLayer& layer = map.layers[i];
@@ -184,7 +42,7 @@ void noteLayers(const Log& log, const Request& request, const AmbientMap& map) {
     }
 }
 
-Traced trace(const ReferenceOptions& options, Request& request) {
+Traced trace(const ReferenceOptions& options, ReferenceRequest& request) {
     Progress progress(options.console.quiet);
     const Log log = makeLog(options.console, progress);
     const AssetRoots roots = AssetRoots::standard();
@@ -192,22 +50,23 @@ Traced trace(const ReferenceOptions& options, Request& request) {
     const Scene scene = loadSceneFile(findScene(roots, options.scene), roots, log, options.allowOutside);
     Traced traced{.camera = resolveCamera(request.view, scene)};
     const float automatic = std::max(kAutoLength * scene.bounds().diagonal(), 1e-6f);
-    for (std::vector<Wanted>* list : {&request.wanted, &request.radii}) {
-        for (Wanted& one : *list) {
+    for (std::vector<WantedMap>* list : {&request.wanted, &request.radii}) {
+        for (WantedMap& one : *list) {
             if (one.term.radius <= 0) one.term.radius = automatic;
         }
     }
     AmbientSettings& settings = request.settings;
     settings.terms.clear();
-    for (const Wanted& one : request.wanted) settings.terms.push_back(one.term);
+    for (const WantedMap& one : request.wanted) settings.terms.push_back(one.term);
     settings.progress = [&](float share) { progress.show(fmt::format("tracing: {:.0f} %", 100 * share)); };
     traced.map = traceAmbient(scene, traced.camera, request.view.size, settings);
     noteLayers(log, request, traced.map);
     if (request.heightfieldNames.empty()) return traced;
     HeightfieldSettings& heightfield = request.heightfield;
     heightfield.seed = settings.seed;
+    heightfield.cache = settings.cache;
     heightfield.progress = [&](float share) { progress.show(fmt::format("heightfield: {:.0f} %", 100 * share)); };
-    for (const Wanted& one : request.radii) {
+    for (const WantedMap& one : request.radii) {
         heightfield.radius = one.term.radius;
         traced.heightfields.push_back(
             traceHeightfield({request.view.size, traced.camera, traced.map.viewDepth, traced.map.normal}, heightfield));
@@ -216,7 +75,7 @@ Traced trace(const ReferenceOptions& options, Request& request) {
 }
 
 /// The heightfield of a layer's radius; empty when there is none or the falloff is another.
-std::span<const float> heightfieldOf(const Request& request, const Traced& traced, std::size_t layer) {
+std::span<const float> heightfieldOf(const ReferenceRequest& request, const Traced& traced, std::size_t layer) {
     if (traced.heightfields.empty() || !request.wanted[layer].term.falloff->isHard()) return {};
     for (std::size_t i = 0; i < request.radii.size(); ++i) {
         if (request.radii[i].radiusText == request.wanted[layer].radiusText) return traced.heightfields[i];
@@ -224,7 +83,7 @@ std::span<const float> heightfieldOf(const Request& request, const Traced& trace
     return {};
 }
 
-void printTables(const ReferenceOptions& options, const Request& request, const Traced& traced) {
+void printTables(const ReferenceOptions& options, const ReferenceRequest& request, const Traced& traced) {
     for (std::size_t i = 0; i < traced.map.layers.size(); ++i) {
         const AmbientTerm& term = request.wanted[i].term;
         if (request.wanted.size() > 1)
@@ -244,7 +103,7 @@ Image toImage(const glm::uvec2& size, const std::vector<float>& values) {
 }
 
 int runReference(const ReferenceOptions& options) {
-    Request request = readRequest(options);
+    ReferenceRequest request = readRequest(options);
     Traced traced = trace(options, request);
     if (!options.depth.empty()) {
         const std::size_t excluded = excludeOtherSurfaces(traced.map, request.depth);

@@ -13,9 +13,10 @@ std::string errorRow(const MapMetrics& m, const std::string& name) {
                        m.correlation, m.skill, m.ofWhite, name);
 }
 
-std::string pictureRow(const PictureMetrics& m, const std::string& name) {
-    return fmt::format("{:8.4f} {:8.4f} {:+8.4f} {:8.4f} {:8.4f} {:8.4f} {:8.4f} {:8.4f}  {}\n", m.ssim, m.all.slope,
-                       m.all.offset, m.all.fitRmse, m.noise, m.edge.rmse, m.border.rmse, m.contact.rmse, name);
+std::string pictureRow(const PictureMetrics& m, double truthNoise, const std::string& name) {
+    return fmt::format("{:9.4f} {:8.4f} {:8.4f} {:+8.4f} {:8.4f} {:8.4f} {:8.4f} {:8.4f} {:8.4f}  {}\n",
+                       noiseCorrected(m.all.rmse, truthNoise), m.ssim, m.all.slope, m.all.offset, m.all.fitRmse,
+                       m.noise, m.edge.rmse, m.border.rmse, m.contact.rmse, name);
 }
 
 }  // namespace
@@ -27,13 +28,13 @@ std::string measureTables(const AmbientMap& truth, std::size_t layer, const Came
     const AmbientLayer& target = truth.layers[layer];
     std::string errors = fmt::format("{:>8} {:>8} {:>8} {:>8} {:>8} {:>8} {:>8}  map\n", "rmse", "mae", "bias", "p95",
                                      "r", "skill", "of white");
-    std::string pictures = fmt::format("{:>8} {:>8} {:>8} {:>8} {:>8} {:>8} {:>8} {:>8}  map\n", "ssim", "slope",
-                                       "offset", "fit", "noise", "edge", "border", "contact");
+    std::string pictures = fmt::format("{:>9} {:>8} {:>8} {:>8} {:>8} {:>8} {:>8} {:>8} {:>8}  map\n", "corrected",
+                                       "ssim", "slope", "offset", "fit", "noise", "edge", "border", "contact");
     for (const MeasuredMap& map : all) {
         const PictureMetrics metrics = measurePicture(
             {truth.size, map.values, target.openness, truth.isCounted, truth.viewDepth, camera, target.term.radius});
         errors += errorRow(metrics.all, map.name);
-        pictures += pictureRow(metrics, map.name);
+        pictures += pictureRow(metrics, truth.countedNoise(layer), map.name);
     }
     if (heightfield.empty() || maps.empty()) return errors + pictures;
     std::string split = fmt::format("{:>8}  map\n", "estimator");
