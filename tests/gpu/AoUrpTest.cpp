@@ -133,6 +133,8 @@ TEST_F(AoUrp, U5_ReadsTheBorderForWhatIsOutside) {
         else
             EXPECT_GE(ao.min(), 1 - kByteStep);
     }
+    // Nor does a radius that reaches beyond the eye and all borders find anything there.
+    EXPECT_GE(mapOf("high", leaningPlane(30), frontView(), {}, {{"radius", "20"}}).min(), 1 - kByteStep);
 }
 
 TEST_F(AoUrp, U6_BlursAcrossDepthSteps) {
