@@ -5,6 +5,7 @@
 
 namespace crevice {
 
+void registerBackFaceStage(StageRegistry& registry);
 void registerComputeStage(StageRegistry& registry);
 void registerForwardStage(StageRegistry& registry);
 void registerFullscreenStage(StageRegistry& registry);
@@ -17,6 +18,7 @@ void registerSsaoStage(StageRegistry& registry);
 void registerTransparentStage(StageRegistry& registry);
 
 void registerBuiltinStages(StageRegistry& registry) {
+    registerBackFaceStage(registry);
     registerComputeStage(registry);
     registerForwardStage(registry);
     registerFullscreenStage(registry);
