@@ -140,6 +140,43 @@ TEST_F(AoDebugView, EdgesAreWhatTheDenoiserKeeps) {
     }
 }
 
+TEST_F(AoDebugView, BentNormalsAreWhatLightingTakes) {
+    for (const std::string ao : {"gtao", "vbao"}) {
+        for (const std::string resolution : {"full", "half"}) {
+            const std::string what = ao + ' ' + resolution;
+            const Image shown = show(
+                "bentNormal", {{"ao", ao}, {"resolution", resolution}, {"bentNormals", "true"}, {"quality", "high"}});
+            const Image bent = target(viewFrom(false), "bentNormal");
+            const Image normal = target(viewFrom(false), "cc_gbuffer_normalMap");
+            const Image position = target(viewFrom(false), "cc_gbuffer_positionMap");
+            int turned = 0, crease = 0, kept = 0;
+            expectEach(
+                shown,
+                [&](auto x, auto y) {
+                    const glm::dvec3 b = bent.at(x, y), n = normal.at(x, y);
+                    if (n == glm::dvec3(0)) return b;  // sky: nothing at all
+                    EXPECT_NEAR(glm::length(b), 1, 2e-3) << what;
+                    EXPECT_GT(glm::dot(b, glm::normalize(n)), 0.5) << what << " at " << x << ',' << y;
+                    const glm::dvec3 p = position.at(x, y);
+                    // The floor before the larger box: what is open leans away from it.
+                    if (p.z > 0.6 && p.z < 0.75 && p.x > 0.4 && p.x < 0.8 && std::abs(n.y) > 0.9) {
+                        ++crease;
+                        turned += b.z > 0.1;
+                    }
+                    // The floor far from both boxes.
+                    if (p.x < -1.6 && std::abs(n.y) > 0.9) kept += glm::dot(b, glm::normalize(n)) > 0.999;
+                    return b * 0.5 + 0.5;
+                },
+                what);
+            EXPECT_GT(crease, 5) << what;
+            EXPECT_EQ(turned, crease) << what;
+            EXPECT_GT(kept, 100) << what;
+        }
+    }
+    // Without the option there are none.
+    EXPECT_EQ(FloatMap(show("bentNormal", {{"ao", "gtao"}})).max(), 0);
+}
+
 TEST_F(AoDebugView, UnknownViewsAndLightingOptionsAreRefused) {
     EXPECT_THROW(show("heat"), Error);
     EXPECT_THROW(show("raw", {{"applyTo", "ambient"}}), Error);

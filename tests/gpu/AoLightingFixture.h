@@ -19,8 +19,14 @@ protected:
         writeFragment("test-ao", percent,
                       std::string("  #if PERCENT < 0\n    result = ") + kOpenness +
                           ";\n  #else\n    result = float(PERCENT) / 100.0;\n  #endif");
+        writeFragment("test-bent", "",
+                      "    result = mod(floor(gl_FragCoord.x), 2.0) < 0.5 ? vec4(0.51, 0.68, 0.0, 0.0) : vec4(0.0);",
+                      "vec4");
         writeFragment("test-material", percent, "    result = vec4(0.0, 0.0, 0.0, float(PERCENT) / 100.0);", "vec4");
     }
+
+    /// A bent normal of direction (0.6, 0.8, 0) in every other column.
+    void setBentNormal(bool isOn) { hasBentNormal_ = isOn; }
 
     /// Openness in percent: of the map (-1: the pattern above), and of the material (100: its own; below, materials
     /// emit nothing).
@@ -40,9 +46,13 @@ protected:
             { "insert": { "stage": "FullscreenStage", "name": "MakeMaterial", "effect": "test-material",
                           "writes": ["cc_gbuffer_emissiveMap"] }, "after": "GbufferStage" },
             { "insert": { "stage": "FullscreenStage", "name": "MakeAo", "effect": "test-ao",
-                          "writes": ["cc_ssaoBlurMap"] }, "before": "LightingStage" } ] })",
+                          "writes": ["cc_ssaoBlurMap"] }, "before": "LightingStage" },
+            { "insert": { "stage": "FullscreenStage", "name": "MakeBent", "effect": "test-bent",
+                          "writes": ["bentNormal"] }, "before": "LightingStage" } ] })",
                      {{"MakeAo.enabled", occluded ? "true" : "false"},
                       {"MakeAo.defines.PERCENT", std::to_string(mapPercent_)},
+                      {"MakeBent.enabled", hasBentNormal_ ? "true" : "false"},
+                      {"LightingStage.defines.BENT_NORMALS", hasBentNormal_ ? "1" : "null"},
                       {"MakeMaterial.enabled", materialPercent_ < 100 ? "true" : "false"},
                       {"MakeMaterial.defines.PERCENT", std::to_string(materialPercent_)}},
                      all);
@@ -101,6 +111,7 @@ protected:
     }
 
     int mapPercent_ = -1, materialPercent_ = 100;
+    bool hasBentNormal_ = false;
     View view_ = [] {
         Camera camera = Camera::lookAt({4, 4, 3}, {0.4f, 0.4f, 0.4f});
         camera.near = 0.1f;

@@ -239,6 +239,43 @@ TEST_F(AoLightingOptions, TransparentSurfacesAndSkyAreNotDarkened) {
     EXPECT_GT(half, 20);
 }
 
+TEST_F(AoLightingOptions, AmbientLightIsLookedUpAlongTheBentNormal) {
+    // Radiance differs by height: that along a direction d is its share of sky, (d.y + 1) / 2.
+    Scene scene = room();
+    scene.ambient = Ambient{glm::vec3(1.0f, 0.9f, 0.8f), glm::vec3(0.1f, 0.2f, 0.3f)};
+    const Rgb sky(1.0f, 0.9f, 0.8f), ground(0.1f, 0.2f, 0.3f);
+    const Options options{{"specularOcclusion", "off"}};
+    const Image along = lit(scene, options);
+    const Image map = openness(scene);
+    loadLighting(options);
+    const Image albedo = target(view_, "cc_gbuffer_albedoMap");
+    const Image normalMetallic = target(view_, "cc_gbuffer_normalMap");
+    // (0.6, 0.8, 0), not of unit length, where the bent normal is known; 0 elsewhere.
+    setBentNormal(true);
+    const Image bent = lit(scene, options);
+    int known = 0;
+    eachPixel(bent, [&](std::uint32_t x, std::uint32_t y) {
+        const glm::dvec4 n = normalMetallic.at(x, y);
+        const Rgb scattered = rgb(albedo, x, y) * (1 - n.w) * double(map.at(x, y).x);
+        const double normalShare = glm::normalize(glm::dvec3(n)).y * 0.5 + 0.5;
+        const double share = x % 2 == 0 ? 0.9 : normalShare;
+        const Rgb expected = rgb(along, x, y) + scattered * (sky - ground) * (share - normalShare);
+        expectNear(rgb(bent, x, y), expected, 1e-3, pixelName(x, y));
+        known += std::abs(share - normalShare) > 0.1;
+    });
+    EXPECT_GT(known, 200);
+}
+
+TEST_F(AoLightingOptions, ConesLieAroundTheBentNormal) {
+    // A smooth metal seen straight mirrors along its normal; the open cone points 53 degrees aside.
+    const Scene plane = facingPlane({0.9f, 0.6f, 0.3f}, 1, 0.1f);
+    setOpenness(36);  // cos of the half-angle 0.8: 37 degrees
+    setBentNormal(true);
+    const Image image = lit(plane, {{"specularOcclusion", "cone"}});
+    EXPECT_EQ(image.at(8, 8).x, 0) << "the mirrored cone is outside";
+    EXPECT_GT(image.at(9, 8).x, 0.3f) << "no bent normal: around the normal, inside";
+}
+
 TEST_F(AoLightingOptions, BlinnPhongDarkensItsConstantAmbientLight) {
     const Scene dark = room();  // the chapter's ambient light comes without any light of the scene
     Options options{{"lighting", "blinn-phong"}, {"multiBounce", "true"}, {"specularOcclusion", "cone"}};
