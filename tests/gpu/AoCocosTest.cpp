@@ -72,7 +72,7 @@ TEST_F(AoCocos, RangeCheckDecidesWhatIsFarInFront) {
     // A plate half a radius and eight radii in front of a wall, beside its silhouette.
     const View view = viewOf(parallelAlongZ(4), 64, 48);
     const auto darkest = [&](const std::string& check, float gap) {
-        const FloatMap ao = rawMap("cocos", "high", halfPlate(gap), view, {{"AoMain.material.thickness", "0.4"}},
+        const FloatMap ao = rawMap("cocos", "high", halfPlate(gap), view, {},
                                    {{"rangeCheck", check}});
         double sum = 0;
         for (std::uint32_t y = 0; y < 48; ++y) sum += (1 - ao.at(32, y)) / 48;
