@@ -40,7 +40,8 @@ protected:
         Options all = options;
         all.emplace("ao", "off");
         loadDocument(R"({ "extends": "ao-deferred",
-          "targets": { "cc_ssaoBlurMap": { "override": true, "format": "R32F" },
+          "targets": { "bentNormal": { "format": "RGBA16F" },
+                       "cc_ssaoBlurMap": { "override": true, "format": "R32F" },
                        "cc_lighting_resultMap": { "override": true, "format": "RGBA32F" } },
           "edits": [
             { "insert": { "stage": "FullscreenStage", "name": "MakeMaterial", "effect": "test-material",
