@@ -307,8 +307,8 @@ TEST_F(AoUrp, EveryOptionOfTheDefaultFormChangesTheMap) {
     const Scene scene = plateScene(0.4f);
     const View view = viewOf(frontCamera(), 48, 36);
     const FloatMap before = mapOf("high", scene, view);
-    for (const Options& change :
-         {Options{{"radial", "cbrt"}}, Options{{"radial", "quadratic"}}, Options{{"seed", "2"}}})
+    for (const Options& change : {Options{{"radial", "sqrt"}}, Options{{"radial", "cbrt"}},
+                                  Options{{"radial", "quadratic"}}, Options{{"seed", "2"}}})
         EXPECT_GT(meanDifference(before, mapOf("high", scene, view, {}, change)), 1e-3) << change.begin()->second;
     for (const StageSet& set :
          Sets{{"AoMain.material.strength", "0.5"}, {"AoMain.material.beta", "100"}, {"AoMain.material.epsilon", "0.3"}})
