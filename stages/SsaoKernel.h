@@ -31,7 +31,7 @@ void makeSsaoRays(SsaoKernelKind kind, std::uint32_t seed, std::size_t pointsPer
 
 /// Length of a ray's point, by the share `x` of the samples that are shorter. Article, Stratified, Songjihu: their
 /// ladder. Crytek: cbrt x, as in a ball. LearnOpenGl: x², as dense near the surface as its own lengths but up to the
-/// whole radius, which those reach with one sample in a thousand.
+/// whole radius, which few of those reach.
 double ssaoRayLength(SsaoKernelKind kind, double x);
 
 /// The chunk `ssao-kernel`: the same samples as GLSL constants, exact to the bit.

@@ -112,6 +112,12 @@ TEST(SsaoKernel, BytesAreFrozen) {
     EXPECT_EQ(hashOf(kernelOf(SsaoKernelKind::Article, 7, 16)), 13675107175192183325ull);
     EXPECT_EQ(hashOf(kernelOf(SsaoKernelKind::Stratified, 1, 64)), 2542186525031153928ull);
     EXPECT_EQ(hashOf(kernelOf(SsaoKernelKind::Stratified, 7, 16)), 4004063144296646336ull);
+    EXPECT_EQ(hashOf(kernelOf(SsaoKernelKind::Crytek, 7, 64)), 3646443352606652630ull);
+    EXPECT_EQ(hashOf(kernelOf(SsaoKernelKind::LearnOpenGl, 7, 64)), 18126837649639204673ull);
+    EXPECT_EQ(hashOf(kernelOf(SsaoKernelKind::Songjihu, 7, 64)), 8072696973824854593ull);
+    std::vector<glm::vec4> rays(32);
+    makeSsaoRays(SsaoKernelKind::Article, 7, 8, rays);
+    EXPECT_EQ(hashOf(rays), 7523578548423495265ull);
 }
 
 TEST(SsaoKernel, StratifiedDirectionsFillEveryCell) {
@@ -133,6 +139,66 @@ TEST(SsaoKernel, FewSamplesSeeTheWallThatManySee) {
         for (std::size_t count : {8, 16, 32})
             EXPECT_NEAR(behindWall(kernelOf(SsaoKernelKind::Stratified, 7, count), k), of64, 0.04)
                 << count << " at " << k;
+    }
+}
+
+TEST(SsaoKernel, BallIsFilledEvenly) {
+    // Shares of a ball: below the middle plane 1/2, within r of the middle r³.
+    int below = 0, inner = 0, all = 0;
+    for (std::uint32_t seed = 0; seed < 50; ++seed) {
+        for (const glm::vec4& s : kernelOf(SsaoKernelKind::Crytek, seed, 64)) {
+            ASSERT_LE(glm::length(glm::vec3(s)), 1);
+            below += s.z < 0, inner += glm::length(glm::vec3(s)) < 0.8f, ++all;
+        }
+    }
+    EXPECT_NEAR(below / double(all), 0.5, 0.03);
+    EXPECT_NEAR(inner / double(all), 0.512, 0.03);
+}
+
+TEST(SsaoKernel, LengthsFollowTheArticles) {
+    // P(U (0.1 + 0.9 V²) > x) of the LearnOpenGL chapter; songjihu's ladder has no chance in it.
+    constexpr std::pair<float, double> kLonger[] = {{0.1f, 0.584}, {0.2f, 0.357}, {0.3f, 0.236}, {0.5f, 0.097}};
+    for (const auto& [length, share] : kLonger) {
+        int longer = 0, all = 0;
+        for (std::uint32_t seed = 0; seed < 80; ++seed)
+            for (const glm::vec4& s : kernelOf(SsaoKernelKind::LearnOpenGl, seed, 64))
+                longer += glm::length(glm::vec3(s)) > length, ++all;
+        EXPECT_NEAR(longer / double(all), share, 0.02) << length;
+    }
+    const std::vector<glm::vec4> ladder = kernelOf(SsaoKernelKind::Songjihu, 3, 64);
+    for (std::size_t i = 0; i < 64; ++i) {
+        const float t = static_cast<float>(i) / 64;
+        EXPECT_NEAR(glm::length(glm::vec3(ladder[i])), 0.01f + 0.99f * t * t, 1e-5f);
+    }
+}
+
+TEST(SsaoKernel, RaysAreStraightLongAndCosineWeighted) {
+    for (SsaoKernelKind kind : {SsaoKernelKind::Article, SsaoKernelKind::Crytek, SsaoKernelKind::LearnOpenGl}) {
+        for (std::size_t perRay : {4, 8}) {
+            std::vector<glm::vec4> samples(64, glm::vec4(99));
+            makeSsaoRays(kind, 7, perRay, samples);
+            double height = 0;
+            float longest = 0;
+            for (std::size_t first = 0; first < 64; first += perRay) {
+                const glm::vec3 direction = glm::normalize(glm::vec3(samples[first + perRay - 1]));
+                float before = 0;
+                for (std::size_t i = first; i < first + perRay; ++i) {
+                    const float length = glm::length(glm::vec3(samples[i]));
+                    ASSERT_GT(samples[i].z, 0);
+                    ASSERT_GT(length, before);
+                    ASSERT_LE(length, 1);
+                    if (length > 0.05f) {
+                        ASSERT_GT(glm::dot(glm::vec3(samples[i]) / length, direction), 0.99999f);
+                    }
+                    before = length;
+                }
+                longest = std::max(longest, before);
+                height += direction.z * static_cast<double>(perRay) / 64;
+            }
+            EXPECT_GT(longest, 0.9f);
+            // Mean cosine of a cosine-weighted hemisphere: 2/3.
+            EXPECT_NEAR(height, 2.0 / 3, 0.01);
+        }
     }
 }
 
