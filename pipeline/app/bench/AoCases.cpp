@@ -95,11 +95,12 @@ AoCase parseAoCase(const AssetRoots& roots, std::string_view text) {
 std::vector<AoCase> listAoCases(const AssetRoots& roots, const AoCaseChoice& choice) {
     const PipelineDesc desc = loadPipeline(roots, {aoMapPipeline(roots), {}, {}});
     std::vector<std::string> known = choicesOf(desc, "ao");
+    std::erase(known, "off");  // makes no map
     checkNames("--techniques", choice.techniques, known);
     std::vector<AoCase> cases;
     std::set<std::string> qualities;
     for (const std::string& technique : known) {
-        if (choice.techniques.empty() ? technique == "off" : !contains(choice.techniques, technique)) continue;
+        if (!choice.techniques.empty() && !contains(choice.techniques, technique)) continue;
         const PipelineDesc own = loadPipeline(roots, {aoMapPipeline(roots), {{"ao", technique}}, {}});
         for (const std::string& quality : choicesOf(own, "quality")) {
             qualities.insert(quality);

@@ -34,7 +34,7 @@ struct AoCaseChoice {
 /// The pipeline that renders nothing but the map. Throws Error when it is not below the asset roots.
 std::string aoMapPipeline(const AssetRoots& roots);
 
-/// Techniques and presets are those of the pipeline's options; "off" and the preset "reference" only when asked for.
+/// Techniques and presets are those of the pipeline's options; the preset "reference" only when asked for.
 /// Throws Error with near names.
 std::vector<AoCase> listAoCases(const AssetRoots& roots, const AoCaseChoice& choice);
 

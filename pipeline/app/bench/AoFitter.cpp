@@ -83,7 +83,7 @@ void AoFitter::fit(AoFit& fit) const {
     for (const auto& [factor, views] : factors_) {
         if (views.calibration.empty()) continue;
         Best here;
-        search(views.calibration, 1.5, 1.5, kCoarse, 7, here);
+        search(views.calibration, 2.5, 2.5, kCoarse, 12, here);
         search(views.calibration, here.strength, here.power, kFine, 10, here);
         if (here.error >= best.error) continue;
         best = here;

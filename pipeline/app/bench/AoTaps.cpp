@@ -8,7 +8,7 @@
 namespace crevice {
 namespace {
 
-constexpr double kSsaoStageSamples = 64;  // what the class takes unless told
+constexpr double kUsualSamples = 64;  // what SsaoStage and the articles' effects take unless told
 
 std::optional<double> numberOf(const Value& object, const char* key) {
     if (!object.isObject()) return std::nullopt;
@@ -25,7 +25,7 @@ double tapsOf(const StageDesc& stage) {
             if (const auto samples = numberOf(*object, key)) return *samples;
         }
     }
-    return stage.stageClass == "SsaoStage" ? kSsaoStageSamples : 0;
+    return stage.stageClass == "SsaoStage" || stage.name == "AoArticle" ? kUsualSamples : 0;
 }
 
 template <class Visit>
