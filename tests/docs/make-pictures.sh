@@ -31,3 +31,12 @@ render "${ao[@]}" -p ao-deferred -o "$maps/ao.png" --dump cc_ssaoBlurMap="$maps/
 "$crevice" reference default -q -o "$maps/truth.exr" --size 320x180 --samples 256 --radius 0.6 --measure "$maps/ao.exr" \
   --depth "$maps/depth.exr" --heat $out/view-error.png >/dev/null
 rm -r "$maps"
+pictures=$(mktemp --suffix=.png)
+for technique in crytek cocos learnopengl; do
+  for quality in high article; do
+    suffix=; [ $quality = article ] && suffix=-article
+    render default -o "$pictures" --size 480x270 -p ao-deferred --option ao=$technique --option quality=$quality \
+      --dump cc_ssaoBlurMap=$out/ao-$technique$suffix.png
+  done
+done
+rm "$pictures"
