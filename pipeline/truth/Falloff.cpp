@@ -32,6 +32,7 @@ float urp(float x) { return kUrpNearest / std::max(x, kUrpNearest); }
 
 constexpr const char* kLearnOpenGl = "LearnOpenGL, SSAO (after J. Chapman): r = U·lerp(.1, 1, (i/64)²)";
 constexpr const char* kCocosKernel = "Cocos Creator 3.3 SSAO article: r = lerp(.1, 1, (i/64)²)";
+constexpr const char* kCrytek = "M. Mittring: Finding Next Gen - CryEngine 2, 2007";
 constexpr const char* kCosineKernel = "1 - F(x) of the distances r of a cosine-weighted kernel";
 
 constexpr auto kCosine = DirectionLaw::Cosine, kUniform = DirectionLaw::Uniform, kBox = DirectionLaw::Box;
@@ -59,11 +60,17 @@ constexpr std::array kFalloffs = {
     Falloff{.name = "matched:crytek",
             .weight = cubic,
             .directions = kUniform,
+            .formula = "1 - x³",
+            .doc = "Points of the half of a ball that is above the surface",
+            .source = kCrytek},
+    Falloff{.name = "matched:crytek-article",
+            .weight = cubic,
+            .directions = kUniform,
             .base = 0.5f,
             .strength = 0.5f,
             .formula = "1 - x³",
             .doc = "Points of a whole ball: half of them lie below a flat surface",
-            .source = "M. Mittring: Finding Next Gen - CryEngine 2, 2007"},
+            .source = kCrytek},
     Falloff{.name = "matched:cocos",
             .weight = cocos,
             .directions = kBox,

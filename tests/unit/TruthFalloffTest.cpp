@@ -2,6 +2,7 @@
 #include <set>
 
 #include "TruthTools.h"
+#include "core/Files.h"
 #include "truth/Sampling.h"
 
 namespace crevice::test {
@@ -37,6 +38,15 @@ TEST(TruthFalloff, TheTableIsWhole) {
         EXPECT_EQ(names.count(std::string("matched:") + technique), 1u) << technique;
     EXPECT_EQ(findFalloff("soft"), nullptr);
     EXPECT_TRUE(hardFalloff().isHard());
+}
+
+TEST(TruthFalloff, TheDocumentNamesThemAll) {
+    const std::string text = readText(CREVICE_TEST_SOURCE_DIR "/docs/reference.md");
+    for (const Falloff& falloff : allFalloffs()) {
+        std::string name = falloff.name;
+        if (name.starts_with("matched:")) name.erase(0, std::string("matched:").size());
+        EXPECT_NE(text.find("`" + name + "`"), std::string::npos) << name;
+    }
 }
 
 /// Share of a kernel's distances r(u, v), u and v even in [0, 1), that exceed x.
@@ -112,8 +122,8 @@ TEST(TruthFalloff, DirectionLaws) {
 
 TEST(TruthFalloff, OpennessOfTheMean) {
     EXPECT_EQ(hardFalloff().openness(0.25), 0.75);
-    EXPECT_EQ(findFalloff("matched:crytek")->openness(0), 0.5);
-    EXPECT_NEAR(findFalloff("matched:crytek")->openness(0.5), 0.25, 1e-12);
+    EXPECT_EQ(findFalloff("matched:crytek-article")->openness(0), 0.5);
+    EXPECT_NEAR(findFalloff("matched:crytek-article")->openness(0.5), 0.25, 1e-12);
     EXPECT_NEAR(findFalloff("matched:xegtao")->openness(0.5), std::pow(0.5, double(2.2f)), 1e-9);
     EXPECT_EQ(findFalloff("matched:urp")->openness(1), 0.0);  // clamped
     EXPECT_NEAR(findFalloff("matched:urp")->openness(0.02), 1 - std::pow(0.3, 0.6), 1e-6);
