@@ -234,6 +234,18 @@ TEST_F(AoSongjihu, S9_BlursAcrossDepthSteps) {
     }
 }
 
+TEST_F(AoSongjihu, FramesTakeNoiseAway) {
+    // Rows along a step differ by noise alone.
+    const View view = viewOf(wallCamera(3), 96, 90);
+    double variance[2];
+    for (int many : {0, 1}) {
+        const FloatMap ao = mapOf("fast", wallScene(), view, {}, {{"temporalFrames", many ? "64" : "1"}});
+        variance[many] = ao.rowVariance(ao.height * 5 / 8);
+    }
+    EXPECT_GT(variance[0], 1e-4);
+    EXPECT_LT(variance[1], variance[0] / 8);
+}
+
 TEST_F(AoSongjihu, DownSamplesTheArticle) {
     const Scene scene = plateScene(0.5f);
     for (const char* factor : {"1", "2", "4"}) {

@@ -315,6 +315,18 @@ TEST_F(AoUrp, EveryOptionOfTheDefaultFormChangesTheMap) {
         EXPECT_GT(meanDifference(before, mapOf("high", scene, view, {set})), 1e-3) << set.path;
 }
 
+TEST_F(AoUrp, FramesTakeNoiseAway) {
+    // Rows along a step differ by noise alone.
+    const View view = viewOf(wallCamera(3), 96, 90);
+    double variance[2];
+    for (int many : {0, 1}) {
+        const FloatMap ao = mapOf("fast", wallScene(), view, {}, {{"temporalFrames", many ? "16" : "1"}});
+        variance[many] = ao.rowVariance(ao.height * 5 / 8);
+    }
+    EXPECT_GT(variance[0], 1e-4);
+    EXPECT_LT(variance[1], variance[0] / 8);
+}
+
 TEST_F(AoUrp, BlueNoiseHasNoLowFrequencies) {
     // Means of 8 x 8 windows of the tile differ less than those of independent numbers would: .29 / 8.
     loadForm("article", {}, {{"noise", "blue"}});
