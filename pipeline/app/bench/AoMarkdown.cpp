@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -80,6 +81,28 @@ std::string splitTable(const AoResults& results) {
     return table.markdown();
 }
 
+/// What the screen cannot know, view by view, beside what the two best techniques make of it.
+std::string floorTable(const AoResults& results) {
+    std::map<std::string, std::map<std::string, std::pair<double, double>>> views;
+    std::vector<std::string> order;
+    for (const AoSplit& split : results.splits) {
+        if (split.quality != "high" || split.white <= 0) continue;
+        const std::string view = fmt::format("{} {} ({})", split.scene, split.view, split.set);
+        if (!views.contains(view)) order.push_back(view);
+        views[view][split.technique] = {split.missing / split.white, split.total / split.white};
+    }
+    TextTable table;
+    table.add({"view", "heightfield", "gtao high", "vbao high"});
+    for (const std::string& view : order) {
+        std::vector<std::string> cells = {view, show(views[view].begin()->second.first)};
+        for (const char* technique : {"gtao", "vbao"}) {
+            cells.push_back(views[view].contains(technique) ? show(views[view][technique].second) : "–");
+        }
+        table.add(std::move(cells));
+    }
+    return table.markdown();
+}
+
 std::string curveTable(const AoResults& results) {
     TextTable table;
     table.add({"curve", "case", "texels read", "CPU share", "of white"});
@@ -107,8 +130,9 @@ std::string generated(const AoResults& results) {
                             results.studySize.y, fitTable(results));
     }
     if (!results.splits.empty()) {
-        text +=
-            "\n### Where errors come from\n\nOf white, evaluation views, the middle radius.\n\n" + splitTable(results);
+        text += "\n### Where errors come from\n\nOf white, evaluation views, the middle radius.\n\n" +
+                splitTable(results) + "\nThe heightfield reference and two techniques, view by view:\n\n" +
+                floorTable(results);
     }
     if (!results.curves.empty()) text += "\n### Cost over samples and over blur taps\n\n" + curveTable(results);
     return text;

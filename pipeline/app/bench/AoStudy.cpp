@@ -33,12 +33,14 @@ std::vector<AmbientTerm> listTerms(const std::vector<AoCase>& cases, float radiu
     return terms;
 }
 
-std::vector<float> brute(const StudyView& view, float radius) {
+std::vector<float> brute(const StudyView& view, float radius, bool useCache) {
+    HeightfieldSettings settings{.radius = radius, .slices = 32};
+    if (useCache) settings.cache = cacheFolder("truth");
     return traceHeightfield({.size = view.truth.size,
                              .camera = view.view->camera,
                              .viewDepth = view.truth.viewDepth,
                              .normal = view.truth.normal},
-                            {.radius = radius, .slices = 32});
+                            settings);
 }
 
 }  // namespace
@@ -76,7 +78,7 @@ void AoStudy::addScene(AoRenderer& renderer, const AoScene& scene, double share,
     renderer.keep({"viewDepth"});
     for (const AoView& view : scene.views) {
         views.push_back({&view, traceAoTruth(renderer.scene(), view.camera, size_, terms, truth_), {}});
-        views.back().heightfield = brute(views.back(), static_cast<float>(radius));
+        views.back().heightfield = brute(views.back(), static_cast<float>(radius), truth_.useCache);
         renderer.render(view);
         excludeOtherSurfaces(views.back().truth, renderer.target("viewDepth"));
     }
