@@ -306,7 +306,7 @@ private:
                 const TargetTrack* output = find(other.target);
                 return output && std::any_of(output->levels.begin(), output->levels.end(), read);
             });
-            if (isClassStage(writer.stage) || isUseful) {
+            if (isClassStage(desc_, writer.stage) || isUseful) {
                 // Inherited, it offers to the child what the parent needed: no fault of the child's.
                 if (desc_.path.empty() || writer.where.file == desc_.path) problems_.note(writer.where, message);
             } else {
@@ -314,30 +314,12 @@ private:
             }
         }
         for (const TargetTrack& track : tracks_) {
-            if (isMentioned(track.desc->name) || track.desc->name == desc_.output) continue;
+            if (isMentioned(plan_.uses, track.desc->name) || track.desc->name == desc_.output) continue;
             // A child that removes stages of its parent cannot take the parent's targets out: no fault of its own.
             if (!desc_.path.empty() && track.desc->where.file != desc_.path) continue;
             warn(track.desc->where, fmt::format("no stage reads or writes the target '{}'", track.desc->name),
                  "remove it", {});
         }
-    }
-
-    /// A stage that chooses its targets in C++, not in the document's "writes": it may well offer more than is used.
-    bool isClassStage(const std::string& name) const {
-        for (const FlowDesc& flow : desc_.flows) {
-            for (const StageDesc& stage : flow.stages) {
-                if (stage.name == name) return stage.writes.empty();
-            }
-        }
-        return false;
-    }
-
-    bool isMentioned(const std::string& target) const {
-        const auto names = [&](const auto& wire) { return wire.target == target; };
-        return std::any_of(plan_.uses.begin(), plan_.uses.end(), [&](const StageUse& use) {
-            return std::any_of(use.writes.begin(), use.writes.end(), names) ||
-                   std::any_of(use.reads.begin(), use.reads.end(), names);
-        });
     }
 
     static bool isTested(const StageUse& stage, const std::string& target) {

@@ -1,6 +1,9 @@
 // Loads a pipeline document, step by step.
 #include "plan/PipelineAsset.h"
 
+#include <algorithm>
+#include <set>
+
 #include "plan/PipelineAssetFiles.h"
 #include "plan/PipelineAssetReader.h"
 #include "plan/PipelineEdits.h"
@@ -11,14 +14,30 @@ namespace {
 
 using Chain = std::vector<PipelineSource>;
 
+/// Sets apply in the order of the options. What a flow file brings is a preset of its stages: the documents, which know
+/// the whole pipeline, have the last word, those that are older than the one that names the flow, too.
+void putFirst(Value& document, const std::set<std::string>& flowOptions) {
+    Value* options = document.find("options");
+    if (!options) return;
+    std::stable_partition(options->members().begin(), options->members().end(),
+                          [&](const Member& option) { return flowOptions.contains(option.key); });
+}
+
 /// Parent first: what the chain of documents says together, edits applied. Options are still open.
 PipelineTree mergeChain(const Chain& chain, const PriorityLookup& defaultPriority, Problems& problems) {
     PipelineTree tree;
+    std::set<std::string> flowOptions;
     for (const PipelineSource& source : chain) {
+        const Value* options = source.tree.find("options");
+        if (source.isFlowFile && options)
+            for (const Member& option : options->members())
+                if (const Value* older = tree.document.find("options"); !older || !older->find(option.key))
+                    flowOptions.insert(option.key);
         mergeDocument(tree, source.tree, problems);
         applyEdits(tree, source.tree, defaultPriority, problems);
     }
     tree.document.setWhere(chain.back().tree.where());
+    putFirst(tree.document, flowOptions);
     checkChoiceSets(tree, problems);
     return tree;
 }

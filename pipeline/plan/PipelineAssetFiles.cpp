@@ -82,7 +82,7 @@ std::vector<PipelineSource> ChainReader::readAncestors(Value document, const std
         const ObjectReader reader(document, pipelineKeys(), "the pipeline", problems_);
         if (!reader.isObject()) problems_.throwIfErrors();
         const Value extends = reader.get("extends") ? *reader.get("extends") : Value();
-        chain.push_back({std::move(document), current});
+        chain.push_back({std::move(document), current, false});
         seen.push_back(shownPath(current));
         if (extends.isNull()) break;
         const fs::path parent = findParent(extends, folder);
@@ -230,7 +230,7 @@ void ChainReader::placeFlow(Value& flow, const fs::path& folder, std::vector<Pip
     Value sections = Value::makeObject(file.where());
     for (const char* section : {"targets", "blocks", "options"})
         if (const Value* value = reader.get(section)) sections.set(section, *value, value->where());
-    brought.push_back({std::move(sections), shownPath(*path)});
+    brought.push_back({std::move(sections), shownPath(*path), true});
     for (const char* key : {"priority", "help"})
         if (const Value* value = reader.get(key); value && !flow.find(key)) flow.set(key, *value, value->where());
     if (const Value* stages = reader.get("stages")) flow.set("stages", *stages, stages->where());

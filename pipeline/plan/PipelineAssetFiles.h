@@ -15,7 +15,8 @@ namespace crevice {
 /// place.
 struct PipelineSource {
     Value tree;
-    std::string file;  ///< As messages name it.
+    std::string file;         ///< As messages name it.
+    bool isFlowFile = false;  ///< Brought along by a flow of the next document.
 };
 
 /// What the caller asks of options; here it only decides between flow files (`"flow": "ao/$ao"`).

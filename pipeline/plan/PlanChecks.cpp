@@ -1,6 +1,8 @@
 // What can be wrong with one stage's declarations, whatever the other stages do.
 #include "plan/PlanChecks.h"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "core/Text.h"
@@ -233,6 +235,24 @@ LevelRange levelsOf(const TargetWrite& write, const TargetDesc& target) { return
 bool isAttachment(WriteKind kind) { return kind != WriteKind::Storage; }
 
 const SourceLoc& placeOf(const SourceLoc& own, const StageUse& stage) { return own.file.empty() ? stage.where : own; }
+
+bool isClassStage(const PipelineDesc& desc, const std::string& stage) {
+    for (const FlowDesc& flow : desc.flows) {
+        for (const StageDesc& candidate : flow.stages) {
+            if (candidate.name == stage) return candidate.writes.empty();
+        }
+    }
+    return false;
+}
+
+bool isMentioned(const std::vector<StageUse>& uses, const std::string& target) {
+    const auto names = [&](const auto& wire) { return wire.target == target; };
+    const auto isUsed = [&](const StageUse& use) {
+        return std::any_of(use.writes.begin(), use.writes.end(), names) ||
+               std::any_of(use.reads.begin(), use.reads.end(), names);
+    };
+    return std::any_of(uses.begin(), uses.end(), isUsed);
+}
 
 void checkStage(const PipelineDesc& desc, const StageUse& stage, Problems& problems) {
     StageCheck(desc, stage, problems).run();

@@ -19,6 +19,12 @@ bool isAttachment(WriteKind kind);
 /// The place of a read or write; where that is unknown, the stage's.
 const SourceLoc& placeOf(const SourceLoc& own, const StageUse& stage);
 
+/// A stage that chooses its targets in C++, not in the document's "writes": it may well offer more than is used.
+bool isClassStage(const PipelineDesc& desc, const std::string& stage);
+
+/// Whether a stage, enabled or not, reads or writes the target.
+bool isMentioned(const std::vector<StageUse>& uses, const std::string& target);
+
 /// Names, formats, levels, sizes, counts and feedback within one stage.
 void checkStage(const PipelineDesc& desc, const StageUse& stage, Problems& problems);
 

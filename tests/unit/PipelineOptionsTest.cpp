@@ -76,6 +76,33 @@ TEST(PipelineOptions, ChoicesSetAndPrecedenceIsDocumentOptionSet) {
     EXPECT_EQ(set.findTarget("aux")->size, glm::uvec2(2, 2));
 }
 
+TEST(PipelineOptions, SetsOfFlowFilesApplyBeforeThoseOfDocuments) {
+    const auto option = [](const std::string& name, const std::string& scale) {
+        return "\"" + name +
+               R"(": { "type": "choice", "default": "auto", "choices": { "auto": {}, "on": { "set": { "aux.scale": )" +
+               scale + " } } } }";
+    };
+    AssetFolder folder;
+    std::string base = kBase;
+    base.replace(base.find("\"options\": {"), 12, "\"options\": { " + option("older", "0.75") + ",");
+    folder.pipeline("base", base);
+    folder.write("assets/pipelines/flows/preset.flow.json",
+                 "{ \"options\": { " + option("preset", "0.25") + R"( }, "stages": [ { "stage": "P" } ] })");
+    folder.pipeline("child", R"({ "extends": "base", "options": { )" + option("own", "1.5") +
+                                 R"( }, "flows": [ { "flow": "preset" } ] })");
+    const auto scale = [&](std::map<std::string, std::string> options) {
+        const PipelineRequest request{.nameOrPath = "child", .options = std::move(options), .sets = {}};
+        const float loaded = loadPipeline(folder.roots(), request).findTarget("aux")->scale;
+        const std::string flat = flattenText(flattenPipeline(folder.roots(), request));
+        EXPECT_EQ(parse(flat).findTarget("aux")->scale, loaded) << flat;
+        return loaded;
+    };
+    EXPECT_EQ(scale({{"preset", "on"}}), 0.25f);
+    EXPECT_EQ(scale({{"preset", "on"}, {"own", "on"}}), 1.5f) << "the document that names the flow";
+    EXPECT_EQ(scale({{"preset", "on"}, {"older", "on"}}), 0.75f) << "its parent";
+    EXPECT_EQ(scale({{"preset", "on"}, {"older", "on"}, {"own", "on"}}), 1.5f) << "documents in order";
+}
+
 TEST(PipelineOptions, SetsOnRemovedStagesAreDropped) {
     const PipelineDesc desc = child(
         R"("options": { "q": { "type": "bool", "default": true, "choices": { "true": { "set": { "B.effect": "z" } } } } },
