@@ -10,6 +10,7 @@
 #include "flow/FrameBlocks.h"
 #include "flow/ProgramCompile.h"
 #include "flow/RenderStage.h"
+#include "flow/StageChecks.h"
 #include "flow/StageRegistry.h"
 #include "flow/Wiring.h"
 #include "plan/PipelineAsset.h"
@@ -55,15 +56,44 @@ void checkListsFit(const StageDesc& desc, const StageDeclaration& declaration, P
     check("queues", desc.queues.size(), declaration.queues.size());
 }
 
+std::vector<StageProgram> makePrograms(const PipelineDesc& pipeline, const StageRegistry& registry, RunInfo run,
+                                       Problems& problems) {
+    std::vector<StageProgram> stages;
+    const std::uint32_t guard = guardPixels(pipeline.guard, run.height);
+    run.width += 2 * guard;
+    run.height += 2 * guard;
+    checkPriorities(
+        pipeline, [&](const std::string& name) { return registry.priorityOf(name); }, problems);
+    for (const FlowDesc& flow : pipeline.flows) {
+        for (const StageDesc& desc : flow.stages) {
+            StageProgram program;
+            program.flow = flow.name;
+            program.desc = &desc;
+            collect(problems, [&] {
+                program.stage = registry.get(desc.stageClass, desc.where).make();
+                readParams(program, problems);
+                StageIo io(program.declaration, desc, run);
+                program.stage->declare(io);
+                checkListsFit(desc, program.declaration, problems);
+                stages.push_back(std::move(program));
+            });
+        }
+    }
+    return stages;
+}
+
 }  // namespace
+
+void checkStages(const PipelineDesc& desc, const StageRegistry& registry, RunInfo run) {
+    Problems problems;
+    makePrograms(desc, registry, run, problems);
+    problems.throwIfErrors();
+}
 
 FrameProgram::FrameProgram(PipelineDesc desc, const StageRegistry& registry, EffectLibrary& library, const Log& log,
                            RunInfo run)
     : desc_(std::move(desc)), library_(library), log_(log) {
     Problems problems;
-    const std::uint32_t guard = guardPixels(desc_.guard, run.height);
-    run.width += 2 * guard;
-    run.height += 2 * guard;
     makeStages(registry, run, problems);
     problems.throwIfErrors();
     nameGlobals();
@@ -78,23 +108,7 @@ FrameProgram::FrameProgram(PipelineDesc desc, const StageRegistry& registry, Eff
 FrameProgram::~FrameProgram() = default;
 
 void FrameProgram::makeStages(const StageRegistry& registry, const RunInfo& run, Problems& problems) {
-    checkPriorities(
-        desc_, [&](const std::string& name) { return registry.priorityOf(name); }, problems);
-    for (const FlowDesc& flow : desc_.flows) {
-        for (const StageDesc& desc : flow.stages) {
-            StageProgram program;
-            program.flow = flow.name;
-            program.desc = &desc;
-            collect(problems, [&] {
-                program.stage = registry.get(desc.stageClass, desc.where).make();
-                readParams(program, problems);
-                StageIo io(program.declaration, desc, run);
-                program.stage->declare(io);
-                checkListsFit(desc, program.declaration, problems);
-                stages_.push_back(std::move(program));
-            });
-        }
-    }
+    stages_ = makePrograms(desc_, registry, run, problems);
 }
 
 void FrameProgram::nameGlobals() {

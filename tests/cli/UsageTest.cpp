@@ -67,6 +67,19 @@ TEST_F(UsageTest, CamerasAreChecked) {
     expectRefused("render default -o a.png --camera 7", "--camera: the scene has no camera '7'", "cameras: 0 'walk'");
 }
 
+TEST_F(UsageTest, WhatTheInputsSayIsToldBeforeADeviceIsLookedFor) {
+    const std::string render = "render default -o a.png --device none-of-that-name ";
+    expectRefused(render + "--camera strol", "--camera: the scene has no camera 'strol'", "0 'walk'");
+    expectRefused(render + "--set SsaoStage.samples=65", "'samples' in params of stage 'SsaoStage' is 65", "1 to 64");
+    write("unknown.pipeline.json",
+          R"({"extends": "deferred", "edits": [{"insert": {"stage": "NoStage"}, "after": "Fxaa"}]})");
+    expectRefused(render + "-p unknown.pipeline.json", "no stage class is registered under 'NoStage'", "classes:");
+    write("cut.gltf", "{");
+    expectRefused("render cut.gltf -o a.png --device none-of-that-name", "the text ends where a key",
+                  "complete the document");
+    expectRefused(render, "no Vulkan device 'none-of-that-name'", "devices:");  // Nothing else is wrong.
+}
+
 TEST_F(UsageTest, ScenesAreChecked) {
     write("notes.txt", "no scene");
     expectRefused("render -o a.png", "no scene given", "default");

@@ -14,6 +14,7 @@
 #include "app/commands/RenderOptions.h"
 #include "app/commands/Timings.h"
 #include "core/Text.h"
+#include "flow/StageChecks.h"
 
 namespace crevice {
 namespace {
@@ -31,6 +32,11 @@ public:
         : options_(options), pipeline_(pipeline), job_(std::move(job)), progress_(options.console.quiet) {}
 
     int run() {
+        // What is wrong with the input is told before a device is made.
+        const glm::uvec2 size = job_.view.size;
+        checkStages(pipeline_.desc(), pipeline_.classes().registry(), {.width = size.x, .height = size.y});
+        if (job_.items.size() > 1 || job_.eachFrame) interrupt_.emplace();
+        loadScene(0);
         start();
         for (std::size_t i = 0; i < job_.items.size(); ++i) renderScene(i);
         if (interrupt_) interrupt_->check();
@@ -42,6 +48,7 @@ public:
     }
 
 private:
+    void loadScene(std::size_t index);
     void start();
     void renderScene(std::size_t index);
     void renderFrames(const RenderItem& item, const View& view);
@@ -56,11 +63,21 @@ private:
     Timings timings_;
     Stopwatch watch_;
     OutputFiles files_;
+    Scene scene_;                   ///< The next one to render.
+    std::optional<Camera> camera_;  ///< Chosen for it.
     std::unique_ptr<Renderer> renderer_;
 };
 
+void RenderRun::loadScene(std::size_t index) {
+    const RenderItem& item = job_.items[index];
+    progress_.show(fmt::format("{}/{} {}: loading …", index + 1, job_.items.size(), item.scene.name));
+    watch_.lap();
+    scene_ = loadSceneFile(item.scene, pipeline_.roots(), makeLog(options_.console, progress_), options_.allowOutside);
+    camera_ = chooseCamera(job_.view, scene_);
+    timings_.loadMs += watch_.lap();
+}
+
 void RenderRun::start() {
-    if (job_.items.size() > 1 || job_.eachFrame) interrupt_.emplace();
     timings_.pixels = std::uint64_t(job_.view.size.x) * job_.view.size.y;
     watch_.lap();
     renderer_ = std::make_unique<Renderer>(RendererOptions{.device = options_.device,
@@ -79,17 +96,15 @@ void RenderRun::start() {
 
 void RenderRun::renderScene(std::size_t index) {
     const RenderItem& item = job_.items[index];
-    progress_.show(fmt::format("{}/{} {}: loading …", index + 1, job_.items.size(), item.scene.name));
+    if (index > 0) loadScene(index);
     watch_.lap();
-    Scene scene = loadSceneFile(item.scene, pipeline_.roots(), renderer_->log(), options_.allowOutside);
-    timings_.loadMs += watch_.lap();
     View view{.width = job_.view.size.x, .height = job_.view.size.y, .background = job_.view.background};
-    view.camera = chooseCamera(job_.view, scene);
+    view.camera = camera_;
     for (const Dump& dump : job_.dumps) {
         if (std::find(view.keep.begin(), view.keep.end(), dump.target) == view.keep.end())
             view.keep.push_back(dump.target);
     }
-    renderer_->setScene(std::move(scene));
+    renderer_->setScene(std::move(scene_));
     timings_.prepareMs += watch_.lap();
     timings_.scenes.push_back({.scene = item.scene.name, .stages = {}, .framesMs = {}});
     renderFrames(item, view);
