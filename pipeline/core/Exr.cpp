@@ -1,6 +1,7 @@
 // EXR through tinyexr: full floats, zip compression.
 #include "core/Exr.h"
 
+#include <algorithm>
 #include <array>
 #include <cassert>
 #include <cstdlib>
@@ -53,6 +54,18 @@ const unsigned char* asChars(std::span<const std::byte> bytes) {
                 "write it again as single-part EXR with channels R, G, B, A");
 }
 
+void parseHeader(EXRHeader& header, std::span<const std::byte> bytes, const std::string& name) {
+    EXRVersion version;
+    if (ParseEXRVersionFromMemory(&version, asChars(bytes), bytes.size()) != TINYEXR_SUCCESS) {
+        fail(name, "its header is damaged");
+    }
+    if (version.multipart || version.non_image) fail(name, "it has several parts or deep pixels");
+    const char* message = nullptr;
+    if (ParseEXRHeaderFromMemory(&header, &version, asChars(bytes), bytes.size(), &message) != TINYEXR_SUCCESS) {
+        fail(name, takeMessage(message));
+    }
+}
+
 /// Which component a channel is: the last part of its name, "diffuse.R" → 0; -1 for others.
 int componentOf(std::string_view name) {
     if (const std::size_t dot = name.rfind('.'); dot != std::string_view::npos) name.remove_prefix(dot + 1);
@@ -103,17 +116,21 @@ bool looksLikeExr(std::span<const std::byte> bytes) {
     return bytes.size() >= kMagic.size() && std::memcmp(bytes.data(), kMagic.data(), kMagic.size()) == 0;
 }
 
-Image decodeExr(std::span<const std::byte> bytes, const std::string& name) {
-    EXRVersion version;
-    if (ParseEXRVersionFromMemory(&version, asChars(bytes), bytes.size()) != TINYEXR_SUCCESS) {
-        fail(name, "its header is damaged");
-    }
-    if (version.multipart || version.non_image) fail(name, "it has several parts or deep pixels");
+int exrColourChannels(std::span<const std::byte> bytes, const std::string& name) {
     ParsedHeader parsed;
-    const char* message = nullptr;
-    if (ParseEXRHeaderFromMemory(&parsed.header, &version, asChars(bytes), bytes.size(), &message) != TINYEXR_SUCCESS) {
-        fail(name, takeMessage(message));
+    parseHeader(parsed.header, bytes, name);
+    int last = 0;
+    for (int c = 0; c < parsed.header.num_channels; ++c) {
+        const int component = componentOf(parsed.header.channels[c].name);
+        if (component < 3) last = std::max(last, component + 1);
     }
+    return last > 0 ? last : 3;
+}
+
+Image decodeExr(std::span<const std::byte> bytes, const std::string& name) {
+    ParsedHeader parsed;
+    parseHeader(parsed.header, bytes, name);
+    const char* message = nullptr;
     constexpr std::int64_t kMaxSide = 1 << 16;
     const EXRBox2i& window = parsed.header.data_window;
     const std::int64_t width = std::int64_t(window.max_x) - window.min_x + 1;

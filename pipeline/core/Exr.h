@@ -14,4 +14,7 @@ bool looksLikeExr(std::span<const std::byte> bytes);
 /// Error.
 Image decodeExr(std::span<const std::byte> bytes, const std::string& name);
 
+/// The last of R, G and B that is there, counted from 1; 3 for a single channel that is shown as grey.
+int exrColourChannels(std::span<const std::byte> bytes, const std::string& name);
+
 }  // namespace crevice

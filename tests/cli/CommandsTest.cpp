@@ -1,4 +1,6 @@
 // What the commands without a device print, and their exit codes.
+#include <cstring>
+
 #include <nlohmann/json.hpp>
 
 #include "CliTools.h"
@@ -170,6 +172,21 @@ TEST_F(CommandsTest, CompareMeasures) {
     EXPECT_EQ(run("compare a.png b.png --max 0.21").code, 0);
     expectRefused("compare a.png wide.png", "the sizes differ: 'a.png' is 2x1, 'wide.png' is 3x1", "same --size", 1);
     EXPECT_EQ(run("compare a.png gone.png").code, 2);
+}
+
+TEST_F(CommandsTest, CompareCountsTheChannelsOfTheFiles) {
+    Image a(2, 1, Format::R32F), b(2, 1, Format::R32F), wide(2, 1, Format::RG32F);
+    const float half = 0.5f;
+    std::memcpy(b.pixel(1, 0), &half, sizeof half);
+    std::memcpy(wide.pixel(1, 0), &half, sizeof half);
+    writeImage(path("a.exr"), a);
+    writeImage(path("b.exr"), b);
+    writeImage(path("wide.exr"), wide);
+    EXPECT_EQ(run("compare a.exr b.exr").out,
+              "rmse      0.353553\nmax       0.5\nmean abs  r 0.25\npsnr      9.03 dB\n");
+    EXPECT_EQ(run("compare a.exr wide.exr").out,
+              "rmse      0.25\nmax       0.5\nmean abs  r 0.25  g 0\npsnr      12.04 dB\n");
+    EXPECT_EQ(run("compare b.exr b.exr").code, 0);
 }
 
 TEST_F(CommandsTest, AClosedPipeIsNoFailureAFullDiskIs) {

@@ -1,4 +1,5 @@
 // `crevice compare`: are two pictures the same, and if not, how much and where do they differ?
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <optional>
@@ -12,6 +13,8 @@
 #include "app/commands/ImageDifference.h"
 #include "app/commands/OutputFiles.h"
 #include "core/Error.h"
+#include "core/Exr.h"
+#include "core/Files.h"
 
 namespace crevice {
 namespace {
@@ -32,10 +35,18 @@ std::optional<double> readThreshold(const char* option, const std::string& text)
     return value;
 }
 
+/// How many of red, green and blue the file gives values for: 1 for an EXR of R alone, 2 for RG, else 3.
+int colourChannels(const std::string& path) {
+    const std::vector<std::byte> bytes = readBytes(path);
+    return looksLikeExr(bytes) ? exrColourChannels(bytes, path) : 3;
+}
+
 void printDifference(const ImageDifference& difference) {
     const auto& mean = difference.meanAbs;
     print(fmt::format("rmse      {:.6g}\nmax       {:.6g}\n", difference.rmse, difference.max));
-    print(fmt::format("mean abs  r {:.6g}  g {:.6g}  b {:.6g}", mean[0], mean[1], mean[2]));
+    print("mean abs");
+    for (std::size_t c = 0; c < static_cast<std::size_t>(difference.colours); ++c)
+        print(fmt::format("  {} {:.6g}", "rgb"[c], mean[c]));
     print(difference.alphaCounts ? fmt::format("  a {:.6g}\n", mean[3]) : "\n");
     print(std::isinf(difference.psnr()) && difference.rmse == 0
               ? "psnr      infinite\n"
@@ -58,7 +69,8 @@ int runCompare(const CompareOptions& options) {
                                       options.b, b.width, b.height),
                           "render both with the same --size");
     }
-    const ImageDifference difference = compareImages(a, b);
+    const ImageDifference difference =
+        compareImages(a, b, std::max(colourChannels(options.a), colourChannels(options.b)));
     printDifference(difference);
     if (!options.heat.empty()) {
         writeImage(options.heat, makeHeatImage(a, b, difference.max));

@@ -28,11 +28,13 @@ double ImageDifference::psnr() const {
     return rmse > 0 ? -20.0 * std::log10(rmse) : std::numeric_limits<double>::infinity();
 }
 
-ImageDifference compareImages(const Image& a, const Image& b) {
+ImageDifference compareImages(const Image& a, const Image& b, int colours) {
     ImageDifference result;
+    result.colours = colours;
     std::array<double, 4> squares{};
     visitPixels(a, b, [&](std::uint32_t, std::uint32_t, const glm::vec4& left, const glm::vec4& right) {
         for (int c = 0; c < 4; ++c) {
+            if (c >= colours && c < 3) continue;
             const auto i = static_cast<std::size_t>(c);
             const double difference = differenceOf(left[c], right[c]);
             squares[i] += difference * difference;
@@ -42,10 +44,8 @@ ImageDifference compareImages(const Image& a, const Image& b) {
         result.alphaCounts = result.alphaCounts || left.a != 1.0f || right.a != 1.0f;
     });
     const double pixels = static_cast<double>(a.width) * a.height;
-    const std::size_t channels = result.alphaCounts ? 4 : 3;
-    double sum = 0;
-    for (std::size_t c = 0; c < channels; ++c) sum += squares[c];
-    result.rmse = std::sqrt(sum / (pixels * static_cast<double>(channels)));
+    const double sum = squares[0] + squares[1] + squares[2] + (result.alphaCounts ? squares[3] : 0);
+    result.rmse = std::sqrt(sum / (pixels * (colours + (result.alphaCounts ? 1 : 0))));
     for (double& mean : result.meanAbs) mean /= pixels;
     return result;
 }
