@@ -1,4 +1,6 @@
 // `crevice reference`: maps, measurements, and what it refuses.
+#include <random>
+
 #include "CliTools.h"
 #include "core/Image.h"
 
@@ -8,7 +10,7 @@ namespace {
 class ReferenceTest : public CliTest {};
 
 TEST_F(ReferenceTest, WritesTheSameFloatsEveryTime) {
-    const std::string command = "reference crease --size 40x24 --samples 16 -o ";
+    const std::string command = "reference crease --no-cache --size 40x24 --samples 16 -o ";
     const Outcome first = run(command + "a.exr");
     EXPECT_EQ(first.code, 0) << first.err;
     EXPECT_EQ(first.out, "a.exr\n");
@@ -41,13 +43,60 @@ TEST_F(ReferenceTest, MeasuresMaps) {
         run("reference crease -q --size 32x32 --samples 64 -o c.exr --measure a.exr --measure b.exr");
     EXPECT_EQ(outcome.code, 0) << outcome.err;
     const std::vector<std::string> lines = splitWords(outcome.out, '\n');
-    ASSERT_GE(lines.size(), 4u);
+    ASSERT_GE(lines.size(), 7u) << outcome.out;
     EXPECT_NE(lines[0].find("rmse"), std::string::npos);
     EXPECT_NE(lines[1].find("  0.0000   0.0000  +0.0000   0.0000   1.0000   1.0000   0.0000  a.exr"), std::string::npos)
         << lines[1];
     EXPECT_TRUE(lines[2].ends_with("  b.exr")) << lines[2];
     EXPECT_EQ(lines[2].find("  0.0000   0.0000"), std::string::npos) << lines[2];
-    EXPECT_EQ(lines[3], "c.exr");
+    EXPECT_NE(lines[3].find("corrected     ssim    slope   offset"), std::string::npos) << lines[3];
+    EXPECT_NE(lines[4].find("   0.0000   1.0000   1.0000  +0.0000   0.0000"), std::string::npos) << lines[4];
+    EXPECT_EQ(lines[6], "c.exr");
+}
+
+// The seed is one that no other test has, so that the first run finds nothing.
+TEST_F(ReferenceTest, TheSecondRunComesFromTheCache) {
+    const std::string seed = std::to_string(std::random_device()());
+    const std::string command = "reference crease --size 24x16 --samples 16 --seed " + seed + " -o ";
+    const Outcome first = run(command + "a.exr");
+    EXPECT_EQ(first.code, 0) << first.err;
+    EXPECT_EQ(first.err.find("from the cache"), std::string::npos) << first.err;
+    const Outcome second = run(command + "b.exr");
+    EXPECT_NE(second.err.find(", from the cache"), std::string::npos) << second.err;
+    EXPECT_EQ(readImage(path("a.exr")), readImage(path("b.exr")));
+    const Outcome third = run(command + "c.exr --no-cache");
+    EXPECT_EQ(third.err.find("from the cache"), std::string::npos) << third.err;
+    EXPECT_EQ(readImage(path("a.exr")), readImage(path("c.exr")));
+}
+
+TEST_F(ReferenceTest, OneRunWritesSeveralMaps) {
+    const std::string rest = " -q --no-cache --size 24x16 --samples 16";
+    const Outcome outcome =
+        run("reference crease -o t-{radius}-{falloff}.exr --radius 0.2 --radius 0.6 --falloff hard "
+            "--falloff matched:hbao" +
+            rest);
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    const std::vector<std::string> names = {"t-0.2-hard.exr", "t-0.2-matched-hbao.exr", "t-0.6-hard.exr",
+                                            "t-0.6-matched-hbao.exr"};
+    EXPECT_EQ(files(), names);
+    for (std::size_t i = 1; i < names.size(); ++i)
+        EXPECT_FALSE(readImage(path(names[0])) == readImage(path(names[i]))) << names[i];
+    ASSERT_EQ(run("reference crease -o one.exr --radius 0.6 --falloff matched:hbao" + rest).code, 0);
+    EXPECT_EQ(readImage(path("one.exr")), readImage(path(names[3])));
+}
+
+// The depth buffer tells all of what a picture of an open crease needs: the floor is near the truth.
+TEST_F(ReferenceTest, Heightfields) {
+    const std::string rest = " -q --no-cache --size 48x32 --samples 256 --slices 16 --heightfield h.exr";
+    const Outcome outcome = run("reference crease -o t.exr" + rest);
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_EQ(files(), (std::vector<std::string>{"h.exr", "t.exr"}));
+    EXPECT_NE(outcome.out.find("  (heightfield)\n"), std::string::npos) << outcome.out;
+    const Outcome measured = run("reference crease -o t.exr --measure h.exr" + rest);
+    EXPECT_NE(measured.out.find("estimator  map\n   0.0000  h.exr\n"), std::string::npos) << measured.out;
+    const std::string other = " -q --no-cache --size 48x32 --samples 2 --slices 16 --heightfield i.exr";
+    ASSERT_EQ(run("reference crease -o t.exr --thickness infinite" + other).code, 0);
+    EXPECT_FALSE(readImage(path("h.exr")) == readImage(path("i.exr")));
 }
 
 TEST_F(ReferenceTest, MistakesAreNamed) {
@@ -58,6 +107,11 @@ TEST_F(ReferenceTest, MistakesAreNamed) {
     expectRefused("reference crease -o a.exr --radius wide", "--radius: 'wide' is not a number", "a number");
     expectRefused("reference crease -o a.exr --falloff lineer", "--falloff: 'lineer' is not a falloff",
                   "did you mean 'linear'?");
+    expectRefused("reference crease -o a.exr --falloff matched:gtoa", "--falloff: 'matched:gtoa' is not a falloff",
+                  "did you mean 'matched:gtao'");
+    expectRefused("reference crease -o a.exr --radius 1 --radius 2", "-o: two maps would both be written to 'a.exr'",
+                  "{radius}");
+    expectRefused("reference crease -o a.exr --thickness -1", "--thickness: '-1' is out of range", "infinite");
     expectRefused("reference crease -o a.exr --samples 1", "--samples: '1' is out of range", "from 2");
     expectRefused("reference crease -o a.exr --background red", "unknown option '--background'", "--help");
 }
