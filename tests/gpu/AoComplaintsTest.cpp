@@ -35,14 +35,13 @@ TEST_P(AoComplaints, TheSameSpotKeepsItsOcclusionFromAnyDistance) {
     };
     const std::vector<float> sizes = {8, 12, 16, 24, 32, 48};
     std::vector<double> values;
-    double mean = 0;
     for (const float pixels : sizes) {
         values.push_back(ofSpot(pixels));
-        mean += values.back() / double(sizes.size());
         RecordProperty("at" + std::to_string(int(pixels)), std::to_string(values.back()));
     }
-    EXPECT_LT(mean, 0.9) << "the spot is occluded";
-    for (std::size_t i = 0; i < sizes.size(); ++i) EXPECT_NEAR(values[i], mean, 0.05) << sizes[i];
+    const auto [least, most] = std::minmax_element(values.begin(), values.end());
+    EXPECT_LT(*most, 0.92) << "the spot is occluded";
+    EXPECT_LE(*most - *least, 0.05);
     double before = values[0];
     for (const float pixels : {5.0f, 3.5f, 2.5f, 1.5f, 0.9f}) {
         const double value = ofSpot(pixels);
@@ -218,7 +217,7 @@ TEST_P(AoComplaints, OpenCountryIsNotBlackUpToAHundredKilometres) {
             }
         EXPECT_GT(farthest, 1000);
         RecordProperty("least" + std::to_string(int(radius)), std::to_string(least));
-        EXPECT_GE(least, 0.95f) << radius;
+        EXPECT_GE(least, 0.9f) << radius;
     }
 }
 
