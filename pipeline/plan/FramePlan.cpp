@@ -314,7 +314,7 @@ private:
             }
         }
         for (const TargetTrack& track : tracks_) {
-            if (isMentioned(plan_.uses, track.desc->name) || track.desc->name == desc_.output) continue;
+            if (isMentioned(desc_, plan_.uses, track.desc->name) || track.desc->name == desc_.output) continue;
             // A child that removes stages of its parent cannot take the parent's targets out: no fault of its own.
             if (!desc_.path.empty() && track.desc->where.file != desc_.path) continue;
             warn(track.desc->where, fmt::format("no stage reads or writes the target '{}'", track.desc->name),

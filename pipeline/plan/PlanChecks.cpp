@@ -245,13 +245,15 @@ bool isClassStage(const PipelineDesc& desc, const std::string& stage) {
     return false;
 }
 
-bool isMentioned(const std::vector<StageUse>& uses, const std::string& target) {
+bool isMentioned(const PipelineDesc& desc, const std::vector<StageUse>& uses, const std::string& target) {
     const auto names = [&](const auto& wire) { return wire.target == target; };
     const auto isUsed = [&](const StageUse& use) {
         return std::any_of(use.writes.begin(), use.writes.end(), names) ||
                std::any_of(use.reads.begin(), use.reads.end(), names);
     };
-    return std::any_of(uses.begin(), uses.end(), isUsed);
+    return std::any_of(uses.begin(), uses.end(), isUsed) ||
+           std::any_of(desc.targets.begin(), desc.targets.end(),
+                       [&](const TargetDesc& other) { return other.like == target; });
 }
 
 void checkStage(const PipelineDesc& desc, const StageUse& stage, Problems& problems) {

@@ -22,8 +22,8 @@ const SourceLoc& placeOf(const SourceLoc& own, const StageUse& stage);
 /// A stage that chooses its targets in C++, not in the document's "writes": it may well offer more than is used.
 bool isClassStage(const PipelineDesc& desc, const std::string& stage);
 
-/// Whether a stage, enabled or not, reads or writes the target.
-bool isMentioned(const std::vector<StageUse>& uses, const std::string& target);
+/// Whether a stage, enabled or not, reads or writes the target, or another target is made like it.
+bool isMentioned(const PipelineDesc& desc, const std::vector<StageUse>& uses, const std::string& target);
 
 /// Names, formats, levels, sizes, counts and feedback within one stage.
 void checkStage(const PipelineDesc& desc, const StageUse& stage, Problems& problems);

@@ -109,6 +109,7 @@ OpenTarget readTarget(const Member& member, const Value& all, Problems& problems
     if (!reader.isObject()) return open;
 
     open.like = reader.text("like");
+    open.desc.like = open.like;
     if (const Value* like = reader.get("like")) {
         open.likeWhere = like->where();
         if (!all.find(open.like)) {

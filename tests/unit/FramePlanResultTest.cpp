@@ -119,7 +119,8 @@ TEST_F(PlanRules, WhatIsSwitchedOffIsNoWarning) {
     target("out");
     target("wire");     // between two disabled stages
     target("written");  // by a disabled stage alone
-    target("wire2");
+    target("model");    // of another target's size
+    target("wire2").like = "model";
     stage("A").writes = {write("out")};
     stage("B").writes = {write("wire"), write("written")};
     uses_.back().enabled = false;
@@ -127,6 +128,8 @@ TEST_F(PlanRules, WhatIsSwitchedOffIsNoWarning) {
     uses_.back().reads = {read("wire"), read("wire2")};
     uses_.back().enabled = false;
     EXPECT_EQ(remarks(), std::vector<std::string>{});
+    desc_.targets.back().like.clear();
+    EXPECT_EQ(remarks(), std::vector<std::string>{"warning: no stage reads or writes the target 'model'"});
 }
 
 TEST_F(PlanRules, WhatAClassStageOffersIsOnlyNoted) {
