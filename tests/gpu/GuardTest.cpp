@@ -6,11 +6,6 @@
 namespace crevice {
 namespace {
 
-constexpr const char* kDocument = R"({
-  "extends": "ao-deferred", "guard": "$border",
-  "options": { "border": { "type": "number", "default": 0 } }
-})";
-
 /// Rasterisers interpolate from a corner of the target: 2^-24 for each of the up to 600 pixels of the widest one here.
 constexpr float kDepthRounding = 4e-5f;
 constexpr float kNormalRounding = 2e-3f;  ///< of a half float, twice
@@ -20,8 +15,8 @@ constexpr std::size_t kMostSnapped = 3;
 class GuardFrame : public FrameTest {
 protected:
     void loadGuarded(int percent, Options options = {}) {
-        options["border"] = std::to_string(percent);
-        loadDocument(kDocument, options);
+        options["guard"] = std::to_string(percent);
+        load("ao-deferred", options);
     }
     std::array<Image, 2> geometry(const View& view) {
         View keeping = view;

@@ -1,4 +1,6 @@
 // A recorded frame is the planned one: barriers, kept targets, times; and the validation layer sees what is not.
+#include <chrono>
+#include <map>
 #include <optional>
 
 #include "FrameFixture.h"
@@ -107,25 +109,47 @@ TEST_F(PipelineFrame, EveryTargetCanBeKept) {
     EXPECT_EQ(renderer_->target("depth").width, 48u);
 }
 
-TEST_F(PipelineFrame, StageTimesAddUpToTheFrame) {
+TEST_F(PipelineFrame, StageTimesAreThoseOfTheStages) {
+    writeFragment("cheap", "", "result = vec4(v_uv, 0.0, 1.0);");
+    writeFragment(
+        "costly", "",
+        "float sum = v_uv.x;\n for (int i = 0; i < 1000; ++i) sum = sin(sum + v_uv.y);\n result = vec4(sum);");
     renderer_->setScene(busyScene());
-    load("ssao-deferred");
-    // Big enough that a scheduler's hiccup between two stages is small against the frame.
-    renderer_->render(sized(480, 270));
-    renderer_->render(sized(480, 270));
-    const std::vector<StageTime> times = renderer_->pipeline().stageTimes();
-    double sum = 0;
-    for (const StageTime& time : times) {
-        EXPECT_GE(time.milliseconds, 0) << time.stage;
-        sum += time.milliseconds;
+    const char* orders[][2] = {{"costly", "cheap"}, {"cheap", "costly"}};
+    for (const auto& [first, second] : orders) {
+        const auto stage = [](const std::string& effect, const std::string& target) {
+            return R"({ "stage": "FullscreenStage", "name": ")" + effect + R"(", "effect": ")" + effect +
+                   R"(", "writes": [")" + target + "\"] }";
+        };
+        const std::string blend = R"({ "stage": "FullscreenStage", "name": "Blend", "effect": "both",
+                                       "reads": { "a": "a", "b": "b" }, "writes": ["out"] })";
+        writeFragment("both", "uniform sampler2D a;\n  uniform sampler2D b;",
+                      "result = texture(a, v_uv) + texture(b, v_uv);");
+        loadDocument(R"({ "name": "t", "output": "out", "targets": { "a": { "format": "RGBA8" },
+                          "b": { "like": "a" }, "out": { "like": "a" } }, "flows": [ { "flow": "Main", "stages": [)" +
+                     stage(first, "a") + "," + stage(second, "b") + "," + blend + "] } ] }");
+        std::map<std::string, double> least;
+        for (int frame = 0; frame < 3; ++frame) {
+            const auto start = std::chrono::steady_clock::now();
+            renderer_->render(sized(128, 128));
+            const std::chrono::duration<double, std::milli> wall = std::chrono::steady_clock::now() - start;
+            EXPECT_LE(renderer_->pipeline().frameMilliseconds(), wall.count()) << "the unit is the millisecond";
+            const std::vector<StageTime> times = renderer_->pipeline().stageTimes();
+            ASSERT_EQ(times.size(), 4u);
+            EXPECT_EQ(times[0].stage, first);
+            EXPECT_EQ(times[0].flow, "Main");
+            EXPECT_EQ(times[1].stage, second);
+            EXPECT_EQ(times[2].stage, "Blend");
+            EXPECT_EQ(times[3].stage, "readback");
+            for (const StageTime& time : times) {
+                const auto [entry, isNew] = least.emplace(time.stage, time.milliseconds);
+                entry->second = std::min(entry->second, time.milliseconds);
+            }
+        }
+        // 16 million sines against 16 thousand texels; the least of three frames, as the machine may be busy.
+        EXPECT_GT(least["costly"], 10 * least["cheap"]) << first << " first";
+        EXPECT_GT(least["costly"], 10 * least["Blend"]) << first << " first";
     }
-    const double frame = renderer_->pipeline().frameMilliseconds();
-    EXPECT_GT(frame, 0);
-    EXPECT_NEAR(sum, frame, 0.05 * frame);
-    ASSERT_EQ(times.size(), renderer_->pipeline().program().plan().stages.size() + 1);
-    EXPECT_EQ(times.front().stage, "ShadowStage");
-    EXPECT_EQ(times.front().flow, "ShadowFlow");
-    EXPECT_EQ(times.back().stage, "readback");
 }
 
 /// Draws as planned, then once more with a texture of its own that is still being an attachment: a missing transition.
