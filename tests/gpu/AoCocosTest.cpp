@@ -49,8 +49,8 @@ TEST_F(AoCocos, ArticleTendsToTheLimitOfItsKernel) {
     // a pixel's own texel is the article's, too (C3): it takes a little off.
     const std::vector<float> distances = {0.1f, 0.2f, 0.3f, 0.5f};
     const std::vector<double> limits = {0.696, 0.810, 0.875, 0.953};
-    const std::vector<double> article = besideWall("cocos", "article", distances, {}, 16);
-    const std::vector<double> remedied = besideWall("cocos", "ultra", distances, {}, 4);
+    const std::vector<double> article = besideWall("cocos", "article", distances, {}, 10);
+    const std::vector<double> remedied = besideWall("cocos", "ultra", distances, {}, 3);
     for (std::size_t i = 0; i < distances.size(); ++i) {
         EXPECT_NEAR(article[i], limits[i], 0.02) << distances[i];
         // Too bright by construction; the default form is not.
@@ -72,8 +72,7 @@ TEST_F(AoCocos, RangeCheckDecidesWhatIsFarInFront) {
     // A plate half a radius and eight radii in front of a wall, beside its silhouette.
     const View view = viewOf(parallelAlongZ(4), 64, 48);
     const auto darkest = [&](const std::string& check, float gap) {
-        const FloatMap ao = rawMap("cocos", "high", halfPlate(gap), view, {},
-                                   {{"rangeCheck", check}});
+        const FloatMap ao = rawMap("cocos", "high", halfPlate(gap), view, {}, {{"rangeCheck", check}});
         double sum = 0;
         for (std::uint32_t y = 0; y < 48; ++y) sum += (1 - ao.at(32, y)) / 48;
         return sum;
@@ -86,6 +85,32 @@ TEST_F(AoCocos, RangeCheckDecidesWhatIsFarInFront) {
     EXPECT_LT(darkest("smooth", 8), 0.02);
     // What touches occludes with each of them.
     for (const char* check : {"off", "hard", "compact", "smooth"}) EXPECT_GT(darkest(check, 0.5f), 0.1) << check;
+}
+
+TEST_F(AoCocos, BackFacesSayHowDeepThingsAre) {
+    // A bar of 1/16 before a wall hides next to nothing behind itself; one of 1/2 that stands on the wall hides as
+    // before.
+    const View view = viewOf(parallelAlongZ(4), 64, 48);
+    const auto darkness = [&](float depth, float centre, const Options& options) {
+        Scene scene = emptyScene();
+        scene.materials[0].doubleSided = false;
+        addSquare(scene, {0, 0, 0}, {0, 0, 1}, 40);
+        addBox(scene, {0, 0, centre}, {0.3f, 20, depth});
+        const FloatMap ao = rawMap("cocos", "ultra", scene, view, {}, options);
+        double sum = 0;
+        for (std::uint32_t y = 0; y < 48; ++y)
+            for (std::uint32_t x = 36; x < 46; ++x) sum += (1 - ao.at(x, y)) / 480;
+        return sum;
+    };
+    const double endless = darkness(0.0625f, 0.5f, {{"rangeCheck", "off"}});
+    const double guessed = darkness(0.0625f, 0.5f, {});
+    const double known = darkness(0.0625f, 0.5f, {{"backFaces", "true"}});
+    EXPECT_GT(endless, 0.08);
+    EXPECT_LT(guessed, endless - 0.02);
+    EXPECT_LT(known, guessed - 0.02);
+    EXPECT_GT(known, 0);
+    EXPECT_NEAR(darkness(0.5f, 0.25f, {{"backFaces", "true"}}), darkness(0.5f, 0.25f, {{"rangeCheck", "off"}}), 0.02);
+    EXPECT_GT(darkness(0.5f, 0.25f, {{"backFaces", "true"}}), 0.1);
 }
 
 /// Variance of a row where the frame's sides are more than a radius away.

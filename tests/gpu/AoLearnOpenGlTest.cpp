@@ -115,7 +115,7 @@ TEST_F(AoLearnOpenGl, L11_TendsToTheLimitOfItsKernel) {
     const std::vector<float> distances = {0.1f, 0.2f, 0.3f, 0.5f, 1.25f};
     const std::vector<double> limits = {0.834, 0.920, 0.960, 0.991, 1};
     const std::vector<double> article = besideWall("learnopengl", "article", distances, {kFullPositions}, 16);
-    const std::vector<double> remedied = besideWall("learnopengl", "ultra", distances, {}, 4);
+    const std::vector<double> remedied = besideWall("learnopengl", "ultra", distances, {}, 3);
     EXPECT_GT(article[4], 0.95);
     EXPECT_EQ(remedied[4], 1);
     for (std::size_t i = 0; i < 4; ++i) {
