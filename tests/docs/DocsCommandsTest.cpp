@@ -69,7 +69,7 @@ TEST_P(DocsCommands, Run) {
 
 INSTANTIATE_TEST_SUITE_P(Of, DocsCommands,
                          testing::Values("README.md", "docs/quickstart.md", "docs/command-line.md",
-                                         "docs/troubleshooting.md", "docs/reference.md"),
+                                         "docs/troubleshooting.md", "docs/reference.md", "docs/ao/debug-views.md"),
                          [](const auto& c) {
                              return std::regex_replace(std::string(c.param), std::regex("\\W"), "_");
                          });
