@@ -27,6 +27,10 @@ render "${ao[@]}" -p ao-deferred -o $out/light-multibounce.png --option multiBou
 render "${ao[@]}" -p ao-deferred -o $out/light-albedo.png --option applyTo=albedo
 for view in raw denoised edges; do render "${ao[@]}" -p ao-views -o $out/view-$view.png --option view=$view; done
 maps=$(mktemp -d)
+for denoiser in none box atrous; do
+  render "${ao[@]}" -p ao-deferred -o "$maps/lit.png" --option denoiser=$denoiser --dump cc_ssaoBlurMap=$out/denoise-$denoiser.png
+done
+render "${ao[@]}" -p ao-deferred -o "$maps/lit.png" --option resolution=half --dump cc_ssaoBlurMap=$out/denoise-half.png
 render "${ao[@]}" -p ao-deferred -o "$maps/ao.png" --dump cc_ssaoBlurMap="$maps/ao.exr" --dump viewDepth="$maps/depth.exr"
 "$crevice" reference default -q -o "$maps/truth.exr" --size 320x180 --samples 256 --radius 0.6 --measure "$maps/ao.exr" \
   --depth "$maps/depth.exr" --heat $out/view-error.png >/dev/null

@@ -89,7 +89,6 @@ TEST_F(AoDenoiseRims, MapsNearEdgesAreThoseOfTheHeightfield) {
         EXPECT_LE(std::sqrt(squares / number), kMostRmse) << resolution;
         EXPECT_NEAR(error / number, 0, 0.03) << resolution;
         RecordProperty(std::string("rmse_") + resolution, std::to_string(std::sqrt(squares / number)));
-                    std::sqrt(dark / number), number);
     }
 }
 
