@@ -94,6 +94,20 @@ TEST_F(AoLearnOpenGl, L8_BlurIsHalfAPixelOffAndCrossesEdges) {
     EXPECT_NEAR(weight, 1, 1e-5);
     EXPECT_NEAR(x / weight, 30.5, 1e-4);
     EXPECT_NEAR(y / weight, 20.5, 1e-4);
+
+    // A plate that is dark before a wall that is not: up to three of the four columns of the mean lie beyond the
+    // silhouette.
+    writeFragment("ao-step", "  uniform sampler2D viewDepth;",
+                  "    result = texture(viewDepth, v_uv).r < 6.0 ? 0.0 : 1.0;");
+    loadTechnique("learnopengl", "article",
+                  {{"AoArticle.effect", "ao-step"},
+                   {"cc_ssaoBlurMap.format", "R32F"},
+                   {"AoArticle.material", "{}"},
+                   {"AoArticle.reads", "{}"}});
+    renderer_->setScene(halfPlate(5));
+    const FloatMap step = map(viewOf(parallelAlongZ(4), 64, 48), "cc_ssaoBlurMap");
+    const float expected[] = {0, 0.25f, 0.5f, 0.75f, 1};
+    for (std::uint32_t i = 0; i < 5; ++i) EXPECT_NEAR(step.at(30 + i, 24), expected[i], 1e-5f) << i;
 }
 
 TEST_F(AoLearnOpenGl, L9_BorderIsClamped) {
