@@ -9,7 +9,6 @@
 namespace crevice {
 namespace {
 
-constexpr float kSkyDepth = 0.999f * kSkyViewDepth;
 /// Steepest piece of plane that is taken from a normal alone: the share of the depth that it may change in a pixel.
 constexpr float kSteepest = 0.5f;
 
@@ -27,12 +26,12 @@ DepthSurface::DepthSurface(const HeightfieldInput& input)
     const glm::mat3 toView(camera.view);
     for (std::size_t i = 0; i < texels_.size(); ++i) {
         const float depth = input.viewDepth[i];
-        texels_[i] = {.depth = depth, .value = continuity_.toLinear(depth), .isSky = !(depth < kSkyDepth)};
+        texels_[i] = {.depth = depth, .value = continuity_.toLinear(depth)};
     }
     for (int y = 0; y < size_.y; ++y) {
         for (int x = 0; x < size_.x; ++x) {
             const std::size_t i = indexOf({x, y});
-            if (texels_[i].isSky) continue;
+            if (isSky(i)) continue;
             const glm::vec3 normal = toView * input.normal[i];
             texels_[i].slope = {slopeAlong({x, y}, {1, 0}, normal), slopeAlong({x, y}, {0, 1}, normal)};
         }
@@ -68,27 +67,21 @@ float DepthSurface::slopeOfPlane(const glm::ivec2& texel, const glm::ivec2& step
     return std::clamp(slope, -steepest, steepest);
 }
 
-float DepthSurface::valueAt(const glm::ivec2& texel, const glm::vec2& pixel) const {
-    const Texel& t = texels_[indexOf(texel)];
-    return t.value + glm::dot(t.slope, pixel - glm::vec2(texel) - 0.5f);
-}
-
 DepthSurface::Sample DepthSurface::at(const glm::vec2& pixel) const {
-    Sample sample;
-    sample.texel = glm::clamp(glm::ivec2(pixel), glm::ivec2(0), size_ - 1);
-    const Texel& texel = texels_[indexOf(sample.texel)];
-    sample.isSky = texel.isSky;
-    if (sample.isSky) return sample;
-    const float value = texel.value + glm::dot(texel.slope, pixel - glm::vec2(sample.texel) - 0.5f);
-    sample.depth = continuity_.orthographic() || value > 0 ? continuity_.toDepth(value) : texel.depth;
+    const glm::ivec2 place = glm::clamp(glm::ivec2(pixel), glm::ivec2(0), size_ - 1);
+    const Texel& texel = texels_[indexOf(place)];
+    if (!(texel.depth < kSkyDepth)) return {};
+    Sample sample{.depth = texel.depth, .centre = glm::vec2(place) + 0.5f, .texel = &texel};
+    const float value = valueAt(sample, pixel);
+    if (continuity_.orthographic() || value > 0) sample.depth = continuity_.toDepth(value);
     return sample;
 }
 
 bool DepthSurface::isContinuous(const Sample& a, const Sample& b) const {
-    if (a.isSky || b.isSky) return false;
+    if (!a.texel || !b.texel) return false;
     if (a.texel == b.texel) return true;
-    const glm::vec2 middle = 0.5f * glm::vec2(a.texel + b.texel) + 0.5f;
-    return continuity_.meets(valueAt(a.texel, middle), valueAt(b.texel, middle));
+    const glm::vec2 middle = 0.5f * (a.centre + b.centre);
+    return continuity_.meets(valueAt(a, middle), valueAt(b, middle));
 }
 
 DepthSurface::Line DepthSurface::lineThrough(const glm::vec2& pixel, const glm::vec2& step, const glm::vec3& across,

@@ -85,37 +85,14 @@ public:
     }
 
 private:
-    void march(const Point& point, const Slice& slice, float side, float jitter) {
-        const float reach = reachPixels(surface_, point, slice, side, settings_.radius);
-        const glm::vec2 step = side * slice.pixels;
-        const float count = std::clamp(std::ceil(reach), 1.0f, static_cast<float>(settings_.steps));
-        // One step a pixel, or, where that is too many, that long at first and growing evenly.
-        const float even = std::min(1.0f, count / reach);
-        const DepthSurface::Line line = surface_.lineThrough(point.pixel, step, slice.across, point.toViewer);
-        const glm::vec2 home(0, point.distance > 0 ? point.distance : -point.position.z);
-        Column last;
-        for (float k = jitter; k < count + 1; k += 1) {
-            const float share = std::min(k / count, 1.0f);
-            const float pixels = reach * share * (even + (1 - even) * share);
-            if (pixels < kNearest) continue;
-            Column column;
-            column.texel = surface_.at(point.pixel + pixels * step);
-            if (!column.texel.isSky) {
-                const glm::vec2 direction = line.direction + pixels * line.directionStep;
-                column.surface = home + pixels * line.originStep + column.texel.depth * direction;
-                limit(column, direction);
-                close(side, column, last);
-            }
-            last = column;
-        }
-    }
-
     /// What a sample hides, in the slice's plane: the directions between two places of the fan.
     struct Column {
-        bool closes = false, isNear = false;  ///< isNear: the surface is inside the ball.
+        bool closes = false;
+        bool isNear = false;   ///< The surface is inside the ball.
+        bool isBelow = false;  ///< Below the point's plane, however thick: only what joins it can rise above.
         glm::vec2 surface{0};
         float low = 0, high = 0;
-        DepthSurface::Sample texel;
+        DepthSurface::Sample sample;
 
         void hide(const glm::vec2& a, const glm::vec2& b) {
             const float placeA = DirectionFan::place(a), placeB = DirectionFan::place(b);
@@ -125,10 +102,63 @@ private:
         }
     };
 
+    /// One side of a slice.
+    struct Side {
+        float sign;
+        glm::vec2 step, home;  ///< On the screen; of the camera (or the plane of depth 0) in the slice.
+        glm::vec2 normal;      ///< Of the point, projected, in the slice.
+        float horizon;         ///< Place of the point's own plane in the fan.
+        DepthSurface::Line line;
+    };
+
+    Side makeSide(const Point& point, const Slice& slice, float sign) const {
+        const float plane = std::clamp(sign * slice.gamma + glm::half_pi<float>(), 0.0f, glm::pi<float>());
+        const glm::vec2 step = sign * slice.pixels;
+        return {.sign = sign,
+                .step = step,
+                .home = {0, point.distance > 0 ? point.distance : -point.position.z},
+                .normal = {std::sin(slice.gamma), std::cos(slice.gamma)},
+                .horizon = DirectionFan::place({std::sin(plane), std::cos(plane)}),
+                .line = surface_.lineThrough(point.pixel, step, slice.across, point.toViewer)};
+    }
+
+    void march(const Point& point, const Slice& slice, float sign, float jitter) {
+        const float reach = reachPixels(surface_, point, slice, sign, settings_.radius);
+        const float count = std::clamp(std::ceil(reach), 1.0f, static_cast<float>(settings_.steps));
+        // One step a pixel, or, where that is too many, that long at first and growing evenly.
+        const float even = std::min(1.0f, count / reach);
+        const Side side = makeSide(point, slice, sign);
+        Column last;
+        for (float k = jitter; k < count + 1; k += 1) {
+            const float share = std::min(k / count, 1.0f);
+            const float pixels = reach * share * (even + (1 - even) * share);
+            if (pixels < kNearest) continue;
+            const Column column = lookAt(point, side, pixels);
+            if (column.closes || last.closes) close(side.sign, column, last);
+            last = column;
+        }
+    }
+
+    Column lookAt(const Point& point, const Side& side, float pixels) const {
+        Column column;
+        column.sample = surface_.at(point.pixel + pixels * side.step);
+        if (!column.sample.texel) return column;
+        const glm::vec2 direction = side.line.direction + pixels * side.line.directionStep;
+        column.surface = side.home + pixels * side.line.originStep + column.sample.depth * direction;
+        column.isNear = glm::dot(column.surface, column.surface) < settings_.radius * settings_.radius;
+        if (glm::dot(column.surface, side.normal) <= 0 && glm::dot(direction, side.normal) <= 0) {
+            column.isBelow = true;
+            column.closes = column.isNear;
+            column.low = column.high = side.horizon;
+        } else {
+            limit(column, direction);
+        }
+        return column;
+    }
+
     /// The part of surface + t·direction, 0 ≤ t ≤ thickness, inside the ball.
     void limit(Column& column, const glm::vec2& direction) const {
         const float radius = settings_.radius, room = radius * radius - glm::dot(column.surface, column.surface);
-        column.isNear = room > 0;
         if (std::isinf(settings_.thickness)) {
             if (column.isNear) column.hide(column.surface, {0, -radius});
             return;
@@ -143,11 +173,11 @@ private:
     }
 
     void close(float side, const Column& column, const Column& last) {
-        if (!column.closes && !last.closes) return;
+        if (column.isBelow && last.isBelow) return;
         const Column& one = column.closes ? column : last;
         float low = one.low, high = one.high;
         // One surface: what lies between the samples is solid too, up to where it leaves the ball.
-        if (surface_.isContinuous(last.texel, column.texel)) {
+        if (surface_.isContinuous(last.sample, column.sample)) {
             if (column.closes && last.closes) {
                 low = std::min(low, last.low);
                 high = std::max(high, last.high);
