@@ -73,11 +73,11 @@ bool isFlat(const PictureInput& input, const Grid& grid, const std::vector<std::
     return flat && high - low <= kFlatRange;
 }
 
-void measureNoise(const PictureInput& input, const Grid& grid, const std::vector<std::uint8_t>& edges,
+void measureNoise(const PictureInput& input, const Grid& grid, const std::vector<std::uint8_t>& flat,
                   PictureMetrics& result) {
     double sum = 0, squares = 0;
     grid.all([&](int x, int y) {
-        if (!isFlat(input, grid, edges, x, y)) return;
+        if (!flat[grid.at(x, y)]) return;
         std::array<float, 25> values;
         std::size_t count = 0;
         grid.around(x, y, kMedianReach, [&](int u, int v) { values[count++] = finite(input.map[grid.at(u, v)]); });
@@ -119,30 +119,42 @@ std::vector<std::uint8_t> findDepthEdges(const glm::uvec2& size, std::span<const
     return edges;
 }
 
-PictureMetrics measurePicture(const PictureInput& input) {
+PictureRegions findRegions(const PictureInput& input) {
+    const Grid grid(input.size);
+    PictureRegions regions;
+    std::vector<std::uint8_t> edges;
+    regions.contact.resize(input.truth.size());
+    for (std::size_t i = 0; i < input.truth.size(); ++i) regions.contact[i] = input.truth[i] < kContactTruth;
+    if (!input.viewDepth.empty()) {
+        edges = findDepthEdges(input.size, input.viewDepth, input.camera);
+        regions.edge = grow(grid, edges, kEdgeReach - 1);
+    }
+    if (!input.viewDepth.empty() && input.radius > 0) {
+        regions.border.resize(input.truth.size());
+        grid.all([&](int x, int y) {
+            const glm::ivec2 place(x, y), rest = grid.size - 1 - place;
+            const float distance = 0.5f + static_cast<float>(std::min({x, y, rest.x, rest.y}));
+            const std::size_t i = grid.at(x, y);
+            regions.border[i] = distance < projectedPixels(input.camera, input.size, input.radius, input.viewDepth[i]);
+        });
+    }
+    regions.flat.resize(input.truth.size());
+    grid.all([&](int x, int y) { regions.flat[grid.at(x, y)] = isFlat(input, grid, edges, x, y); });
+    return regions;
+}
+
+PictureMetrics measurePicture(const PictureInput& input) { return measurePicture(input, findRegions(input)); }
+
+PictureMetrics measurePicture(const PictureInput& input, const PictureRegions& regions) {
     const Grid grid(input.size);
     assert(input.map.size() == input.truth.size() && input.map.size() == std::size_t(input.size.x) * input.size.y);
     PictureMetrics result;
     result.all = measureMap(input.map, input.truth, input.isCounted);
     result.ssim = structuralSimilarity(input.size, input.map, input.truth, input.isCounted);
-
-    std::vector<std::uint8_t> region(input.truth.size(), 0), edges;
-    for (std::size_t i = 0; i < region.size(); ++i) region[i] = input.truth[i] < kContactTruth;
-    result.contact = errorWhere(input, region);
-    if (!input.viewDepth.empty()) {
-        edges = findDepthEdges(input.size, input.viewDepth, input.camera);
-        result.edge = errorWhere(input, grow(grid, edges, kEdgeReach - 1));
-    }
-    if (!input.viewDepth.empty() && input.radius > 0) {
-        grid.all([&](int x, int y) {
-            const glm::ivec2 place(x, y), rest = grid.size - 1 - place;
-            const float distance = 0.5f + static_cast<float>(std::min({x, y, rest.x, rest.y}));
-            const std::size_t i = grid.at(x, y);
-            region[i] = distance < projectedPixels(input.camera, input.size, input.radius, input.viewDepth[i]);
-        });
-        result.border = errorWhere(input, region);
-    }
-    measureNoise(input, grid, edges, result);
+    result.contact = errorWhere(input, regions.contact);
+    result.edge = errorWhere(input, regions.edge);
+    result.border = errorWhere(input, regions.border);
+    measureNoise(input, grid, regions.flat, result);
     return result;
 }
 

@@ -40,6 +40,14 @@ struct PictureMetrics {
 };
 PictureMetrics measurePicture(const PictureInput& input);
 
+/// Which pixels belong to the regions above: 1 = yes. Empty: there is no such region. They do not depend on the map, so
+/// that many maps of one view can share them.
+struct PictureRegions {
+    std::vector<std::uint8_t> edge, border, contact, flat;
+};
+PictureRegions findRegions(const PictureInput& input);
+PictureMetrics measurePicture(const PictureInput& input, const PictureRegions& regions);
+
 /// Mean SSIM (Wang, Bovik, Sheikh, Simoncelli 2004) over the counted pixels: Gaussian window of 11x11, sigma 1.5, K1
 /// .01, K2 .03, range 1. Windows know only counted pixels inside the picture, their weights made to sum to 1.
 double structuralSimilarity(const glm::uvec2& size, std::span<const float> a, std::span<const float> b,
