@@ -15,7 +15,7 @@ namespace {
 constexpr std::uint32_t kPictureWidth = 256, kLitWidth = 512;
 constexpr float kErrorGain = 4;  // an error of 1/4 is white
 // What a million rays and a million rendered or measured pixels take, in seconds on two cores: for the time left only.
-constexpr double kRays = 0.11, kMap = 0.35, kStudyMap = 0.4;
+constexpr double kRays = 0.1, kMap = 0.35, kStudyMap = 0.4;
 // The yardstick's radius is 1 whatever the scene: only scenes of that scale compare. These come first in the list.
 constexpr std::size_t kTimedScenes = 2;
 
@@ -43,6 +43,10 @@ struct AoBench::Truths {
     std::vector<AmbientMap> maps;  ///< One per view, a layer per radius.
     std::vector<double> excluded;
     std::vector<std::vector<float>> baked;  ///< One per view; empty without occlusion textures.
+    std::vector<PictureRegions> regions;    ///< View by view, radius by radius.
+    const PictureRegions* regionsOf(std::size_t view, std::size_t radius) const {
+        return &regions[view * radii.size() + radius];
+    }
 };
 
 AoBench::AoBench(AoBenchSettings settings, AoViewList views, std::vector<AoCase> cases)
@@ -55,6 +59,7 @@ AoBench::AoBench(AoBenchSettings settings, AoViewList views, std::vector<AoCase>
         curves_ = listAoCurves(renderer_.renderer().roots(), cases_);
         AoTruthSettings truth = settings_.truth;
         truth.progress = {};
+        truth.samples = std::max(2u, truth.samples / 2);  // of three direction laws each; means over views need no more
         study_ = std::make_unique<AoStudy>(truth, settings_.studySize, [this](double maps) {
             did("calibration", maps * kStudyMap * megapixels(settings_.studySize));
         });
@@ -75,7 +80,7 @@ double AoBench::planWork() const {
     }
     if (study_) {
         const auto maps = AoStudy::countMaps(cases_, std::size_t(views));
-        work += megapixels(settings_.studySize) * (kStudyMap * maps + 3 * kRays * settings_.truth.samples * views);
+        work += megapixels(settings_.studySize) * (kStudyMap * maps + 1.5 * kRays * settings_.truth.samples * views);
     }
     return std::max(work, 1e-6);
 }
@@ -158,6 +163,13 @@ AoBench::Truths AoBench::traceScene(const AoScene& scene, const glm::uvec2& size
         if (hasBaked) truths.baked.push_back(firstChannel(renderer_.target("cc_gbuffer_emissiveMap"), 3));
     }
     renderer_.keep({});
+    truths.regions.resize(truths.maps.size() * truths.radii.size());
+    runParallel(truths.regions.size(), [&](std::size_t i) {
+        const std::size_t view = i / truths.radii.size(), radius = i % truths.radii.size();
+        AoMeasurement m{{}, &truths.maps[view], radius, &scene.views[view].camera, {}};
+        m.row.radius = truths.radii[radius];
+        truths.regions[i] = findRegions(pictureInput(m));
+    });
     return truths;
 }
 
@@ -180,6 +192,7 @@ void AoBench::addFixedRows(const AoScene& scene, const Truths& truths, bool hasB
         for (std::size_t radius = 0; radius < truths.radii.size(); ++radius) {
             AoMeasurement m{rowFor(scene, scene.views[v], truths, radius), &truths.maps[v], radius,
                             &scene.views[v].camera, std::vector<float>(std::size_t(truths.size.x) * truths.size.y, 1)};
+            m.regions = truths.regionsOf(v, radius);
             m.row.technique = "white";
             m.row.cpuShare = m.row.cpuMs = 0;
             measurements.push_back(m);
@@ -198,6 +211,7 @@ void AoBench::runCase(const AoScene& scene, const Truths& truths, const AoCase& 
         const AoView& view = scene.views[v];
         AoMeasurement m{rowFor(scene, view, truths, radius), &truths.maps[v], radius, &view.camera,
                         renderer_.render(view).openness};
+        m.regions = truths.regionsOf(v, radius);
         m.row.technique = wanted.technique;
         m.row.quality = wanted.quality;
         m.row.extras = wanted.extras;

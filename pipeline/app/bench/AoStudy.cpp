@@ -10,7 +10,7 @@
 namespace crevice {
 namespace {
 
-constexpr double kFactors[] = {0.7, 1, 1.4, 2};
+constexpr double kFactors[] = {0.7, 1, 1.5};
 
 struct StudyView {
     const AoView* view;

@@ -9,6 +9,20 @@
 #include "core/Files.h"
 
 namespace crevice {
+namespace {
+
+/// Takes the noise of the truth out of whatever is a mean square: error, error of white, variance.
+void takeNoiseOff(MapMetrics& metrics, double noise) {
+    const double square = metrics.rmse * metrics.rmse;
+    const double variance = metrics.skill < 1 ? square / (1 - metrics.skill) - noise * noise : 0;
+    metrics.rmse = noiseCorrected(metrics.rmse, noise);
+    metrics.white = noiseCorrected(metrics.white, noise);
+    metrics.fitRmse = noiseCorrected(metrics.fitRmse, noise);
+    metrics.ofWhite = metrics.white > 0 ? metrics.rmse / metrics.white : 0;
+    if (variance > 0) metrics.skill = 1 - metrics.rmse * metrics.rmse / variance;
+}
+
+}  // namespace
 
 AmbientMap traceAoTruth(const Scene& scene, const Camera& camera, const glm::uvec2& size,
                         std::vector<AmbientTerm> terms, const AoTruthSettings& settings) {
@@ -25,16 +39,21 @@ std::vector<AoRow> measureRows(std::span<const AoMeasurement> measurements) {
     runParallel(measurements.size(), [&](std::size_t i) {
         const AoMeasurement& m = measurements[i];
         rows[i] = m.row;
-        rows[i].metrics = measurePicture({.size = m.truth->size,
-                                          .map = m.map,
-                                          .truth = m.truth->layers[m.layer].openness,
-                                          .isCounted = m.truth->isCounted,
-                                          .viewDepth = m.truth->viewDepth,
-                                          .camera = *m.camera,
-                                          .radius = static_cast<float>(m.row.radius)});
+        rows[i].metrics = measurePicture(pictureInput(m), *m.regions);
         rows[i].truthNoise = m.truth->countedNoise(m.layer);
+        takeNoiseOff(rows[i].metrics.all, rows[i].truthNoise);
     });
     return rows;
+}
+
+PictureInput pictureInput(const AoMeasurement& m) {
+    return {.size = m.truth->size,
+            .map = m.map,
+            .truth = m.truth->layers[m.layer].openness,
+            .isCounted = m.truth->isCounted,
+            .viewDepth = m.truth->viewDepth,
+            .camera = *m.camera,
+            .radius = static_cast<float>(m.row.radius)};
 }
 
 void runParallel(std::size_t count, const std::function<void(std::size_t)>& task) {

@@ -12,7 +12,7 @@ namespace crevice {
 
 /// Rays and where results are kept.
 struct AoTruthSettings {
-    std::uint32_t samples = 256;
+    std::uint32_t samples = 128;
     bool useCache = true;
     std::function<void(float)> progress{};
 };
@@ -24,13 +24,18 @@ struct AoMeasurement {
     std::size_t layer = 0;
     const Camera* camera = nullptr;
     std::vector<float> map;
+    const PictureRegions* regions = nullptr;  ///< Of this truth and radius.
 };
 
 AmbientMap traceAoTruth(const Scene& scene, const Camera& camera, const glm::uvec2& size,
                         std::vector<AmbientTerm> terms, const AoTruthSettings& settings);
 
-/// Measures on all processors; rows in the order of the measurements.
+/// Measures on all processors; rows in the order of the measurements. RMSE, that of white and skill are without the
+/// truth's own noise.
 std::vector<AoRow> measureRows(std::span<const AoMeasurement> measurements);
+
+/// What the measurement reads besides regions.
+PictureInput pictureInput(const AoMeasurement& measurement);
 
 /// Runs `task(i)` for every i below `count` on all processors. The first exception is thrown again.
 void runParallel(std::size_t count, const std::function<void(std::size_t)>& task);

@@ -30,7 +30,7 @@ constexpr std::uint32_t kMaxSamples = 1u << 16, kMaxRepeats = 1000;
 
 struct BenchAoOptions {
     std::vector<std::string> scenes, variants;
-    std::string views, techniques, qualities, sizes = "1280x720", radii, studySize = "480x270", samples = "256",
+    std::string views, techniques, qualities, sizes = "1280x720", radii, studySize = "480x270", samples = "128",
                                               repeats = "3", device, out, markdown;
     bool noStudy = false, noCache = false;
     ConsoleOptions console;
@@ -126,7 +126,7 @@ std::string commandLine(const BenchAoOptions& options) {
     add("--sizes", options.sizes, "1280x720");
     add("--radii", options.radii, "");
     add("--study-size", options.studySize, "480x270");
-    add("--samples", options.samples, "256");
+    add("--samples", options.samples, "128");
     add("--repeats", options.repeats, "3");
     return text + (options.noStudy ? " --no-study" : "") + " -o FOLDER";
 }
