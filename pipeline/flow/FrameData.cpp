@@ -108,6 +108,8 @@ ForwardLightBlock forwardLightBlock(const Scene& scene) {
     return block;
 }
 
+float automaticLength(const Aabb& scene) { return std::clamp(scene.diagonal() / 40.0f, 1e-6f, 1e6f); }
+
 float exposureFromEv(float ev) { return 1.0f / (1.2f * std::exp2(ev)); }
 
 float autoExposureEv(const Scene& scene) {

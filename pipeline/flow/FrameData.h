@@ -11,8 +11,9 @@
 
 namespace crevice {
 
-/// Share of the scene's bounding-box diagonal that `auto` lengths such as an occlusion radius take.
-inline constexpr float kAutoLength = 1.0f / 40.0f;
+/// World units that `auto` lengths such as an occlusion radius take: 1/40 of the diagonal of the scene's bounding box,
+/// but at least 1e-6 (scenes without surfaces) and at most 1e6.
+float automaticLength(const Aabb& scene);
 
 /// The view with `guard` more pixels on each side: what shows at a pixel p of the frame shows at p + guard.
 FrameView guardedView(const FrameView& view, std::uint32_t guard);

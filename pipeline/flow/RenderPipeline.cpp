@@ -103,7 +103,7 @@ void RenderPipeline::activate(glm::uvec2 extent) {
         if (target.isGlobal()) globals_.writeImage(target.name, targets_->texture(target.name), target.sampler);
     }
     globals_.update();
-    const float autoLength = kAutoLength * scene_->bounds().diagonal();
+    const float autoLength = automaticLength(scene_->bounds());
     for (const auto& execution : executions_) {
         execution->writeTargets();
         execution->setAutoLength(autoLength);

@@ -40,6 +40,16 @@ void expectNear(const glm::mat4& a, const glm::mat4& b, float tolerance) {
         for (int r = 0; r < 4; ++r) EXPECT_NEAR(a[c][r], b[c][r], tolerance) << c << ',' << r;
 }
 
+TEST(FrameData, AutomaticLengthIsAFortiethOfTheDiagonalWithinLimits) {
+    Aabb box;
+    EXPECT_FLOAT_EQ(automaticLength(box), 1e-6f) << "a scene without surfaces";
+    box.add(glm::vec3(0));
+    box.add(glm::vec3(3, 4, 12));
+    EXPECT_FLOAT_EQ(automaticLength(box), 13.0f / 40);
+    box.add(glm::vec3(1e9f));
+    EXPECT_FLOAT_EQ(automaticLength(box), 1e6f);
+}
+
 TEST(FrameData, GlobalBlockHoldsTimeAndSizes) {
     const GlobalBlock block = globalBlock(viewAt({0, 0, 5}));
     EXPECT_EQ(block.time, glm::vec4(12.75f, 0.5f, 7, 0.75f));

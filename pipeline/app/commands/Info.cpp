@@ -107,8 +107,8 @@ int printSceneInfo(const InfoOptions& options, const Log& log) {
     table.add({"bounds", box.empty ? "empty"
                                    : fmt::format("{:.6g},{:.6g},{:.6g} to {:.6g},{:.6g},{:.6g}", box.min.x, box.min.y,
                                                  box.min.z, box.max.x, box.max.y, box.max.z)});
-    table.add({"auto radius",
-               fmt::format("{:.4g} (1/40 of the diagonal {:.4g})", kAutoLength * box.diagonal(), box.diagonal())});
+    table.add(
+        {"auto radius", fmt::format("{:.4g} (1/40 of the diagonal {:.4g})", automaticLength(box), box.diagonal())});
     const bool lit = addDefaultLight(scene);
     table.add({"exposure", fmt::format("{:.3g} EV{}", scene.exposureEv ? *scene.exposureEv : autoExposureEv(scene),
                                        scene.exposureEv ? ""

@@ -49,7 +49,7 @@ Traced trace(const ReferenceOptions& options, ReferenceRequest& request) {
     progress.show("loading …");
     const Scene scene = loadSceneFile(findScene(roots, options.scene), roots, log, options.allowOutside);
     Traced traced{.camera = resolveCamera(request.view, scene)};
-    const float automatic = std::max(kAutoLength * scene.bounds().diagonal(), 1e-6f);
+    const float automatic = automaticLength(scene.bounds());
     for (std::vector<WantedMap>* list : {&request.wanted, &request.radii}) {
         for (WantedMap& one : *list) {
             if (one.term.radius <= 0) one.term.radius = automatic;
