@@ -136,6 +136,17 @@ void makeSsaoRays(SsaoKernelKind kind, std::uint32_t seed, std::size_t pointsPer
     }
 }
 
+std::span<const glm::vec4> makeSsaoSamples(SsaoKernelKind kind, std::uint32_t seed, std::size_t pointsPerRay,
+                                           std::span<glm::vec4> room) {
+    if (pointsPerRay == 0) {
+        makeSsaoKernel(kind, seed, room);
+        return room;
+    }
+    const std::span<glm::vec4> whole = room.first(room.size() / pointsPerRay * pointsPerRay);
+    makeSsaoRays(kind, seed, pointsPerRay, whole);
+    return whole;
+}
+
 std::string ssaoKernelChunk(std::span<const glm::vec4> samples) {
     std::string text = fmt::format("const vec3 kSsaoKernel[{}] = vec3[](\n", samples.size());
     for (std::size_t i = 0; i < samples.size(); ++i) {

@@ -29,6 +29,11 @@ void makeSsaoKernel(SsaoKernelKind kind, std::uint32_t seed, std::span<glm::vec4
 /// ssaoRayLength(). The size of the span is a multiple of `pointsPerRay`.
 void makeSsaoRays(SsaoKernelKind kind, std::uint32_t seed, std::size_t pointsPerRay, std::span<glm::vec4> samples);
 
+/// One or the other: rays where `pointsPerRay` is above 0, of which as many fit as `room` has place for. Returns the
+/// part of `room` that was filled.
+std::span<const glm::vec4> makeSsaoSamples(SsaoKernelKind kind, std::uint32_t seed, std::size_t pointsPerRay,
+                                           std::span<glm::vec4> room);
+
 /// Length of a ray's point, by the share `x` of the samples that are shorter. Article, Stratified, Songjihu: their
 /// ladder. Crytek: cbrt x, as in a ball. LearnOpenGl: x², as dense near the surface as its own lengths but up to the
 /// whole radius, which few of those reach.

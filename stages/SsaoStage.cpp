@@ -1,7 +1,5 @@
 // Ambient occlusion from the G-buffer: one full-screen draw into cc_ssaoMap. Which form it has is the effect's
 // business.
-#include <algorithm>
-
 #include "SsaoKernel.h"
 #include "flow/RenderStage.h"
 
@@ -28,14 +26,9 @@ public:
         v.field("samples", samples_,
                 {.min = 1, .max = kSsaoMaxSamples, .help = "Kernel size; the radius ladder is made for it."});
         v.choice("kernel", kernel_, kKernelNames,
-                 {.help = "Directions and lengths: the Cocos article's, cosine-weighted and stratified, or another "
-                          "technique's."});
-        v.field(
-            "rayPoints", rayPoints_,
-            {.min = 0,
-             .max = 16,
-             .help = "Samples on each of samples / rayPoints cosine-weighted rays, at the kernel's own lengths; 0 = "
-                     "points in the kernel's own directions."});
+                 {.help = "Directions and lengths: the Cocos article's, cosine-weighted, or another technique's."});
+        v.field("rayPoints", rayPoints_,
+                {.min = 0, .max = 16, .help = "Samples on each cosine-weighted ray; 0 = the kernel's own points."});
         v.choice("bake", bake_, kBakeNames,
                  {.help = "Kernel as shader constants: the same picture, faster over many pixels."});
     }
@@ -45,18 +38,12 @@ public:
         if (io.documentWrites().size() > 1) io.color(io.documentWrites()[1]);
         block_ = io.block<SsaoBlock>("CCSsao");
         draw_ = io.fullscreen("ssao");
-        const auto kind = static_cast<SsaoKernelKind>(kernel_);
-        const std::uint32_t perRay = std::min(std::max(rayPoints_, 1u), samples_);
-        const std::uint32_t count = samples_ / perRay * perRay;
-        const std::span<glm::vec4> kernel(data_.samples, count);
-        if (rayPoints_ > 0) {
-            makeSsaoRays(kind, seed_, perRay, kernel);
-        } else {
-            makeSsaoKernel(kind, seed_, kernel);
-        }
-        const bool baked = bake_ == kBakeOn || (bake_ == kBakeAuto && io.run().pixels() * count >= kBakeFrom);
-        io.define(draw_, "SSAO_SAMPLES", std::to_string(count));
-        if (rayPoints_ > 0) io.define(draw_, "RAY_POINTS", std::to_string(perRay));
+        const std::uint32_t perRay = rayPoints_ < samples_ ? rayPoints_ : samples_;
+        const std::span<const glm::vec4> kernel =
+            makeSsaoSamples(static_cast<SsaoKernelKind>(kernel_), seed_, perRay, {data_.samples, samples_});
+        const bool baked = bake_ == kBakeOn || (bake_ == kBakeAuto && io.run().pixels() * kernel.size() >= kBakeFrom);
+        io.define(draw_, "SSAO_SAMPLES", std::to_string(kernel.size()));
+        if (perRay > 0) io.define(draw_, "RAY_POINTS", std::to_string(perRay));
         io.define(draw_, "SSAO_BAKED", baked ? "1" : "0");
         io.chunk("ssao-kernel", ssaoKernelChunk(kernel));
     }

@@ -35,7 +35,8 @@ TEST_F(ReferenceHeatTest, ShowsTheErrorOfEachMap) {
 
 TEST_F(ReferenceHeatTest, AHeatWithoutAMapIsRefused) {
     expectRefused("reference crease -o a.exr --heat h.png", "--heat: 'h.png' has no map", "a --measure for each");
-    expectRefused("reference crease -o a.exr --measure a.exr --heat h.gif", "'h.gif'", ".png");
+    expectRefused("reference crease -o a.exr --measure a.exr --heat h.gif", "--heat: '.gif' is not a kind of picture",
+                  ".png");
 }
 
 }  // namespace

@@ -114,14 +114,14 @@ ReferenceRequest readRequest(const ReferenceOptions& options) {
     if (!options.noCache) request.settings.cache = cacheFolder("truth");
     request.heightfield.thickness = readThickness(options.thickness);
     request.heightfield.slices = parseCount("--slices", options.slices, 1, kMaxSlices);
-    for (const std::string& path : options.measure)
-        request.measured.push_back(redChannel(readMap("--measure", path, request.view.size)));
-    if (!options.depth.empty()) request.depth = readMap("--depth", options.depth, request.view.size);
     for (const std::string& path : options.heat) checkPicturePath("--heat", path);
     if (options.heat.size() > options.measure.size()) {
         throw Error(fmt::format("--heat: '{}' has no map", options.heat[options.measure.size()]),
                     "give a --measure for each --heat, in the same order");
     }
+    for (const std::string& path : options.measure)
+        request.measured.push_back(redChannel(readMap("--measure", path, request.view.size)));
+    if (!options.depth.empty()) request.depth = readMap("--depth", options.depth, request.view.size);
     return request;
 }
 
