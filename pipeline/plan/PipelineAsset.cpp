@@ -14,11 +14,26 @@ namespace {
 
 using Chain = std::vector<PipelineSource>;
 
+/// The document's options; nothing where it has none, or is no object yet.
+const Value* optionsOf(const Value& document) {
+    const Value* options = document.isObject() ? document.find("options") : nullptr;
+    return options && options->isObject() ? options : nullptr;
+}
+
+/// Names of the options that `flowFile` declares and `older` does not.
+void addNewOptions(const Value& flowFile, const Value& older, std::set<std::string>& names) {
+    const Value* brought = optionsOf(flowFile);
+    const Value* known = optionsOf(older);
+    if (!brought) return;
+    for (const Member& option : brought->members())
+        if (!known || !known->find(option.key)) names.insert(option.key);
+}
+
 /// Sets apply in the order of the options. What a flow file brings is a preset of its stages: the documents, which know
 /// the whole pipeline, have the last word, those that are older than the one that names the flow, too.
 void putFirst(Value& document, const std::set<std::string>& flowOptions) {
     Value* options = document.find("options");
-    if (!options) return;
+    if (!options || !options->isObject()) return;
     std::stable_partition(options->members().begin(), options->members().end(),
                           [&](const Member& option) { return flowOptions.contains(option.key); });
 }
@@ -28,11 +43,7 @@ PipelineTree mergeChain(const Chain& chain, const PriorityLookup& defaultPriorit
     PipelineTree tree;
     std::set<std::string> flowOptions;
     for (const PipelineSource& source : chain) {
-        const Value* options = source.tree.find("options");
-        if (source.isFlowFile && options)
-            for (const Member& option : options->members())
-                if (const Value* older = tree.document.find("options"); !older || !older->find(option.key))
-                    flowOptions.insert(option.key);
+        if (source.isFlowFile) addNewOptions(source.tree, tree.document, flowOptions);
         mergeDocument(tree, source.tree, problems);
         applyEdits(tree, source.tree, defaultPriority, problems);
     }
