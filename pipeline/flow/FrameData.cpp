@@ -108,7 +108,10 @@ ForwardLightBlock forwardLightBlock(const Scene& scene) {
     return block;
 }
 
-float automaticLength(const Aabb& scene) { return std::clamp(scene.diagonal() / 40.0f, 1e-6f, 1e6f); }
+float automaticLength(const Aabb& scene) {
+    const float diagonal = scene.diagonal();
+    return diagonal > 0 ? std::clamp(diagonal / 40.0f, 2e-6f, 1e6f) : 1.0f;
+}
 
 float exposureFromEv(float ev) { return 1.0f / (1.2f * std::exp2(ev)); }
 

@@ -12,7 +12,7 @@
 namespace crevice {
 
 /// World units that `auto` lengths such as an occlusion radius take: 1/40 of the diagonal of the scene's bounding box,
-/// but at least 1e-6 (scenes without surfaces) and at most 1e6.
+/// from 2e-6 to 1e6; 1 for a scene without extent.
 float automaticLength(const Aabb& scene);
 
 /// The view with `guard` more pixels on each side: what shows at a pixel p of the frame shows at p + guard.

@@ -42,8 +42,11 @@ void expectNear(const glm::mat4& a, const glm::mat4& b, float tolerance) {
 
 TEST(FrameData, AutomaticLengthIsAFortiethOfTheDiagonalWithinLimits) {
     Aabb box;
-    EXPECT_FLOAT_EQ(automaticLength(box), 1e-6f) << "a scene without surfaces";
+    EXPECT_EQ(automaticLength(box), 1) << "a scene without surfaces";
     box.add(glm::vec3(0));
+    EXPECT_EQ(automaticLength(box), 1) << "a point";
+    box.add(glm::vec3(1e-7f, 0, 0));
+    EXPECT_EQ(automaticLength(box), 2e-6f);
     box.add(glm::vec3(3, 4, 12));
     EXPECT_FLOAT_EQ(automaticLength(box), 13.0f / 40);
     box.add(glm::vec3(1e9f));
