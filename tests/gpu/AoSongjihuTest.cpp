@@ -3,44 +3,22 @@
 // what was measured.
 #include <set>
 
-#include "AoFixture.h"
+#include "AoTwoFormsFixture.h"
 
 namespace crevice {
 namespace {
 
-constexpr std::uint32_t kWidth = 96, kHeight = 72;
-constexpr float kDistance = 5;  // of planes along the axis; the radius is 1 where no test says otherwise
 // Mean of the weight by direction over the kernel and the noise tile, on a plane of any tilt.
 constexpr double kMeanWeight = 0.64;
 
-class AoSongjihu : public AoTest {
+class AoSongjihu : public AoTwoFormsTest {
 protected:
-    /// Either form as full floats. `sets` name AoMain or AoArticle: those of the other form change nothing.
-    void loadForm(const std::string& quality, Sets sets = {}, Options options = {}) {
-        for (const char* target : {"cc_ssaoMap", "cc_ssaoBlurMap", "songjihuBlurX", "songjihuBlurY"})
-            sets.insert(sets.begin(), {.path = std::string(target) + ".format", .value = "R32F"});
-        options.insert({{"ao", "songjihu"}, {"quality", quality}, {"radius", "1"}});
-        load("ao-deferred", options, std::move(sets));
-    }
-    FloatMap mapOf(const std::string& quality, const Scene& scene, const View& view, Sets sets = {},
-                   Options options = {}) {
-        loadForm(quality, std::move(sets), std::move(options));
-        renderer_->setScene(scene);
-        return map(view);
-    }
+    AoSongjihu() : AoTwoFormsTest("songjihu", {"cc_ssaoMap", "cc_ssaoBlurMap", "songjihuBlurX", "songjihuBlurY"}) {}
 };
 
 /// Range and bias of the article out of the way: everything nearer occludes.
 std::vector<StageSet> everythingNearer() {
     return {{"AoArticle.material.rangeStrength", "1"}, {"AoArticle.material.depthBias", "0"}};
-}
-
-/// A plane that leans back around the x axis; the camera of frontCamera() sees nothing else.
-Scene leaningPlane(float degrees, float scale = 1) {
-    Scene scene = emptyScene();
-    const float tilt = glm::radians(degrees);
-    addSquare(scene, {0, 0, -kDistance * scale}, {0, std::sin(tilt), std::cos(tilt)}, 400 * kDistance * scale);
-    return scene;
 }
 
 Camera frontCamera(float near = 0.1f, float far = 100, float degrees = 30) {
@@ -52,21 +30,6 @@ Camera frontCamera(float near = 0.1f, float far = 100, float degrees = 30) {
 }
 
 View frontView(const Camera& camera = frontCamera()) { return viewOf(camera, kWidth, kHeight); }
-
-/// A plate `gap` in front of a wall that is kDistance away.
-Scene plateScene(float gap) {
-    Scene scene = leaningPlane(0);
-    addSquare(scene, {0, 0, -kDistance + gap}, {0, 0, 1}, 1);
-    return scene;
-}
-
-/// Smallest openness of the wall behind the plate.
-float darkestOfWall(const FloatMap& ao, const FloatMap& depth) {
-    float darkest = 1;
-    for (std::size_t i = 0; i < ao.values.size(); ++i)
-        if (depth.values[i] > kDistance - 0.01f) darkest = std::min(darkest, ao.values[i]);
-    return darkest;
-}
 
 TEST_F(AoSongjihu, S1_ComparesWithTheFragment) {
     // On a plane that leans by an angle, the share of the hemisphere that appears on the nearer side of the fragment is

@@ -1,44 +1,15 @@
 // The faults of Unity's URP article, U2 to U10 of docs/ao/urp.md, as far as they show in the map: the form `article`
 // has each as predicted, the default form has none. Bounds that only say "clearly there" keep a margin to what was
 // measured.
-#include "AoFixture.h"
+#include "AoTwoFormsFixture.h"
 
 namespace crevice {
 namespace {
 
-constexpr std::uint32_t kWidth = 96, kHeight = 72;
-constexpr float kDistance = 5;  // of planes along the axis; the radius is 1 where no test says otherwise
-
-class AoUrp : public AoTest {
+class AoUrp : public AoTwoFormsTest {
 protected:
-    /// Either form as full floats. `sets` name AoMain or AoArticle: those of the other form change nothing.
-    void loadForm(const std::string& quality, Sets sets = {}, Options options = {}) {
-        for (const char* target : {"cc_ssaoMap", "cc_ssaoBlurMap"})
-            sets.insert(sets.begin(), {.path = std::string(target) + ".format", .value = "R32F"});
-        options.insert({{"ao", "urp"}, {"quality", quality}, {"radius", "1"}});
-        load("ao-deferred", options, std::move(sets));
-    }
-    FloatMap mapOf(const std::string& quality, const Scene& scene, const View& view, Sets sets = {},
-                   Options options = {}) {
-        loadForm(quality, std::move(sets), std::move(options));
-        renderer_->setScene(scene);
-        return map(view);
-    }
+    AoUrp() : AoTwoFormsTest("urp", {"cc_ssaoMap", "cc_ssaoBlurMap"}) {}
 };
-
-Scene leaningPlane(float degrees, float scale = 1) {
-    Scene scene = emptyScene();
-    const float tilt = glm::radians(degrees);
-    addSquare(scene, {0, 0, -kDistance * scale}, {0, std::sin(tilt), std::cos(tilt)}, 400 * kDistance * scale);
-    return scene;
-}
-
-/// A plate `gap` in front of a wall that is kDistance away.
-Scene plateScene(float gap) {
-    Scene scene = leaningPlane(0);
-    addSquare(scene, {0, 0, -kDistance + gap}, {0, 0, 1}, 1);
-    return scene;
-}
 
 /// A step of that height across the picture, on a wall `distance` away.
 Scene stepScene(float height, float distance) {
@@ -57,14 +28,6 @@ Camera frontCamera(float scale = 1) {
 }
 
 View frontView(float scale = 1) { return viewOf(frontCamera(scale), kWidth, kHeight); }
-
-/// Smallest openness of the wall behind the plate.
-float darkestOfWall(const FloatMap& ao, const FloatMap& depth) {
-    float darkest = 1;
-    for (std::size_t i = 0; i < ao.values.size(); ++i)
-        if (depth.values[i] > kDistance - 0.01f) darkest = std::min(darkest, ao.values[i]);
-    return darkest;
-}
 
 double besideWall(double k) { return 1 - (std::acos(k) - k * std::sqrt(1 - k * k)) / 3.14159265358979; }
 
