@@ -22,7 +22,7 @@ struct TargetDesc {
     Format format = Format::RGBA8;
     float scale = 1.0f;              ///< Of the frame; ignored when `size` is set.
     std::optional<glm::uvec2> size;  ///< Fixed pixels.
-    std::string like;  ///< Target that gave what this one's document did not say; empty = none.
+    std::string like;                ///< Target that gave what this one's document did not say; empty = none.
     std::uint32_t mips = 1, layers = 1;
     glm::vec4 clear{0};
     SamplerKind sampler = SamplerKind::PointClamp;
