@@ -159,7 +159,9 @@ bool ProgramCompiler::choosePass(const StageProgram& stage, const QueueDeclarati
     const std::vector<EffectPass>& passes = asset.techniques[choice.technique].passes;
     for (std::size_t i = 0; i < passes.size(); ++i) {
         const bool blends = !passes[i].state.blendTargets.empty() && passes[i].state.blendTargets[0].blend;
-        if (passes[i].phase == queue.queue.phase && blends == (queue.queue.sort == QueueSort::BackToFront)) {
+        const std::vector<std::string>& phases = queue.queue.phases;
+        if (std::find(phases.begin(), phases.end(), passes[i].phase) != phases.end() &&
+            blends == (queue.queue.sort == QueueSort::BackToFront)) {
             choice.pass = i;
             return true;
         }

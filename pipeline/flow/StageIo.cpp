@@ -69,7 +69,7 @@ DrawId StageIo::compute(std::string_view defaultEffect) {
 
 QueueId StageIo::queue(std::string_view phase, QueueSort sort, std::string_view defaultEffect) {
     const std::size_t index = declaration_.queues.size();
-    QueueDeclaration declared{.queue = {std::string(phase), sort, desc_.where},
+    QueueDeclaration declared{.queue = {{std::string(phase)}, sort, desc_.where},
                               .effect = desc_.effect.empty() ? std::string(defaultEffect) : desc_.effect};
     if (index < desc_.queues.size()) declared.queue = desc_.queues[index];
     declaration_.queues.push_back(std::move(declared));

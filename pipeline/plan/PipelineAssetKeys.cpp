@@ -24,6 +24,16 @@ const KeySpec kPipelineKeys[] = {
      .min = 0,
      .max = 100,
      .defaultText = "0"},
+    {.key = "profile",
+     .kind = KeyKind::Choice,
+     .help = "Numbers and block layouts of sets 0 and 2, units and conventions: those of a Cocos Creator version, for "
+             "its effects. See [Cocos at run time](cocos-runtime.md).",
+     .names = profileNames,
+     .defaultText = "Crevice's own"},
+    {.key = "fallbacks",
+     .kind = KeyKind::Object,
+     .help = "What a Cocos profile does where a project's files contradict each other.",
+     .schema = R"({"$ref":"#/$defs/fallbacks"})"},
     {.key = "plugins",
      .kind = KeyKind::Array,
      .help = "Plugins the document needs; the caller has to allow each.",
@@ -51,6 +61,19 @@ const KeySpec kPipelineKeys[] = {
      .help = "Changes to the parent's stages, applied in order.",
      .schema = R"({"type":"array","items":{"$ref":"#/$defs/edit"}})",
      .type = "list of edits"},
+};
+
+const KeySpec kFallbackKeys[] = {
+    {.key = "rebindLiterals",
+     .kind = KeyKind::Bool,
+     .help = "A number of set 0 or 2 that a shader writes out and another name has: the shader's name decides, with a "
+             "note. Off: an error.",
+     .defaultText = "true"},
+    {.key = "globalSamplers",
+     .kind = KeyKind::Bool,
+     .help = "A material's sampler that nothing feeds takes the target of set 0 that has its name, with a warning. "
+             "Off: it shows the default texture.",
+     .defaultText = "true"},
 };
 
 const KeySpec kTargetKeys[] = {
@@ -257,6 +280,11 @@ const KeySpec kQueueKeys[] = {
      .kind = KeyKind::Text,
      .help = "Passes of scene materials with this phase.",
      .defaultText = "default"},
+    {.key = "phases",
+     .kind = KeyKind::Array,
+     .help = "Several phases instead of the one.",
+     .schema = R"({"type":"array","items":{"type":"string"},"minItems":1,"uniqueItems":true})",
+     .type = "list of names"},
     {.key = "sort",
      .kind = KeyKind::Choice,
      .help = "Order of draws; `back-to-front` draws the passes that blend, "
@@ -300,6 +328,7 @@ const KeySpec kRemoveKeys[] = {
 };
 
 const KeyTable kPipelineTable{"pipeline", kPipelineKeys};
+const KeyTable kFallbackTable{"fallbacks", kFallbackKeys};
 const KeyTable kTargetTable{"target", kTargetKeys};
 const KeyTable kBlockTable{"block", kBlockKeys};
 const KeyTable kOptionTable{"option", kOptionKeys};
@@ -315,6 +344,7 @@ const KeyTable kRemoveTable{"remove", kRemoveKeys};
 }  // namespace
 
 const KeyTable& pipelineKeys() { return kPipelineTable; }
+const KeyTable& fallbackKeys() { return kFallbackTable; }
 const KeyTable& targetKeys() { return kTargetTable; }
 const KeyTable& blockKeys() { return kBlockTable; }
 const KeyTable& optionKeys() { return kOptionTable; }
@@ -332,7 +362,8 @@ std::vector<std::string> formatNames() {
     for (const FormatInfo& info : allFormats()) names.push_back(info.name);
     return names;
 }
-// In the order of SamplerKind, QueueSort and OptionType.
+// In the order of Profile, from Cocos33 on; of SamplerKind, QueueSort and OptionType.
+std::vector<std::string> profileNames() { return {"cocos-3.3", "cocos-3.6"}; }
 std::vector<std::string> samplerNames() { return {"point-clamp", "linear-clamp", "linear-repeat", "shadow-compare"}; }
 std::vector<std::string> sortNames() { return {"front-to-back", "back-to-front"}; }
 std::vector<std::string> optionTypeNames() { return {"bool", "number", "choice"}; }

@@ -52,6 +52,7 @@ struct KeyTable {
 };
 
 const KeyTable& pipelineKeys();
+const KeyTable& fallbackKeys();
 const KeyTable& targetKeys();
 const KeyTable& blockKeys();
 const KeyTable& optionKeys();
@@ -66,6 +67,7 @@ const KeyTable& removeKeys();
 
 /// Words of the enums that documents use.
 std::vector<std::string> formatNames();
+std::vector<std::string> profileNames();
 std::vector<std::string> samplerNames();
 std::vector<std::string> sortNames();
 std::vector<std::string> optionTypeNames();

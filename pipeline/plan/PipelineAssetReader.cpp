@@ -29,6 +29,7 @@ private:
     StageDesc readStage(const Value& value);
     void readReads(const Value& reads, const std::string& what, StageDesc& stage);
     void readWrites(const Value& writes, const std::string& what, StageDesc& stage);
+    void readPhases(const ObjectReader& reader, QueueDesc& queue);
     void readQueues(const Value& queues, const std::string& what, StageDesc& stage);
     void checkDefines(const Value& defines, const std::string& what);
     bool isTargetText(const Value& value, const std::string& what);
@@ -96,11 +97,31 @@ void TreeReader::readWrites(const Value& writes, const std::string& what, StageD
     }
 }
 
+void TreeReader::readPhases(const ObjectReader& reader, QueueDesc& queue) {
+    const Value* phases = reader.get("phases");
+    if (!phases) {
+        queue.phases = {reader.text("phase", "default")};
+        return;
+    }
+    if (reader.get("phase"))
+        problems_.error(phases->where(), fmt::format("{} has both 'phase' and 'phases'", reader.what()),
+                        "keep the list");
+    queue.phases.clear();
+    for (const Value& phase : phases->items()) {
+        if (phase.isString()) {
+            queue.phases.push_back(phase.string());
+        } else {
+            problems_.error(phase.where(), fmt::format("a phase must be a name, found {}", phase.typeName()),
+                            "write names in quotes");
+        }
+    }
+}
+
 void TreeReader::readQueues(const Value& queues, const std::string& what, StageDesc& stage) {
     for (const Value& item : queues.items()) {
         const ObjectReader reader(item, queueKeys(), fmt::format("a queue of {}", what), problems_);
         QueueDesc queue{.where = item.where()};
-        queue.phase = reader.text("phase", queue.phase);
+        readPhases(reader, queue);
         if (reader.text("sort") == sortNames()[1]) queue.sort = QueueSort::BackToFront;
         stage.queues.push_back(std::move(queue));
     }
@@ -197,6 +218,23 @@ void readGuard(const Value& value, PipelineDesc& desc, Problems& problems) {
     }
 }
 
+void readProfile(const Value& document, PipelineDesc& desc, Problems& problems) {
+    if (const Value* profile = document.find("profile")) {
+        const std::vector<std::string> names = profileNames();
+        const auto found = std::find(names.begin(), names.end(), profile->string());
+        if (found != names.end())  // Another word is reported with the document's keys.
+            desc.profile = static_cast<Profile>(found - names.begin() + static_cast<int>(Profile::Cocos33));
+    }
+    const Value* fallbacks = document.find("fallbacks");
+    if (!fallbacks) return;
+    if (!isCocos(desc.profile))
+        problems.error(fallbacks->where(), "'fallbacks' without 'profile' has no effect",
+                       "add \"profile\", or remove it");
+    const ObjectReader reader(*fallbacks, fallbackKeys(), "'fallbacks'", problems);
+    desc.fallbacks.rebindLiterals = reader.flag("rebindLiterals", true);
+    desc.fallbacks.globalSamplers = reader.flag("globalSamplers", true);
+}
+
 }  // namespace
 
 PipelineDesc readPipelineTree(const Value& document, std::vector<OptionDesc> options, const std::string& file,
@@ -220,6 +258,7 @@ PipelineDesc readPipelineTree(const Value& document, std::vector<OptionDesc> opt
     if (const Value* targets = document.find("targets")) desc.targets = readTargets(*targets, problems);
     if (const Value* blocks = document.find("blocks")) desc.blocks = readBlocks(*blocks, problems);
 
+    readProfile(document, desc, problems);
     TreeReader reader(desc, problems);
     reader.readFlows(document.find("flows"), document.where());
     if (const Value* output = document.find("output")) {

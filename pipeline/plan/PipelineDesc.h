@@ -41,7 +41,7 @@ struct BlockPin {
 
 enum class QueueSort : std::uint8_t { FrontToBack, BackToFront };
 struct QueueDesc {
-    std::string phase = "default";
+    std::vector<std::string> phases{"default"};  ///< A pass is drawn when its phase is one of these.
     QueueSort sort = QueueSort::FrontToBack;
     SourceLoc where;
 };
@@ -88,6 +88,16 @@ struct OptionDesc {
     SourceLoc where;
 };
 
+/// Whose numbers sets 0 and 2 have, whose block layouts are bound and in whose units they are filled.
+enum class Profile : std::uint8_t { Crevice, Cocos33, Cocos36 };
+inline bool isCocos(Profile profile) { return profile != Profile::Crevice; }
+
+/// What a Cocos profile does where a project's files contradict each other; each use is logged.
+struct Fallbacks {
+    bool rebindLiterals = true;  ///< A literal number of set 0 or 2 that is another name's: the name decides.
+    bool globalSamplers = true;  ///< A material sampler that nothing feeds takes the target of set 0 with its name.
+};
+
 struct PipelineDesc {
     std::string name;
     std::string path;
@@ -95,6 +105,8 @@ struct PipelineDesc {
     std::string help;
     std::string output;  ///< Target that a frame is read back from.
     SourceLoc outputWhere;
+    Profile profile = Profile::Crevice;
+    Fallbacks fallbacks;
     double guard = 0;  ///< Percent of the frame's height that is rendered beyond every edge and cut off.
     SourceLoc guardWhere;
     std::vector<std::string> plugins;

@@ -185,6 +185,7 @@ Value pipelineSchema(const std::vector<StageSchema>& stages) {
     definitions.set("target",
                     orOverride(tableSchema(targetKeys(), true), R"({"required":["format"]},{"required":["like"]})"));
     definitions.set("block", tableSchema(blockKeys()));
+    definitions.set("fallbacks", tableSchema(fallbackKeys()));
     definitions.set("option", orOverride(tableSchema(optionKeys()), R"({"required":["type","default"]})"));
     definitions.set("choice", tableSchema(choiceKeys()));
     definitions.set("queue", tableSchema(queueKeys(), true));
@@ -213,10 +214,11 @@ std::string pipelineKeysMarkdown() {
         const KeyTable& table;
     };
     const Section sections[] = {
-        {"Document", pipelineKeys()},   {"Target", targetKeys()},         {"Block", blockKeys()},
-        {"Option", optionKeys()},       {"Choice", choiceKeys()},         {"Flow", flowKeys()},
-        {"Flow file", flowFileKeys()},  {"Stage", stageKeys()},           {"Queue", queueKeys()},
-        {"Edit: insert", insertKeys()}, {"Edit: replace", replaceKeys()}, {"Edit: remove", removeKeys()},
+        {"Document", pipelineKeys()},   {"Fallbacks", fallbackKeys()},  {"Target", targetKeys()},
+        {"Block", blockKeys()},         {"Option", optionKeys()},       {"Choice", choiceKeys()},
+        {"Flow", flowKeys()},           {"Flow file", flowFileKeys()},  {"Stage", stageKeys()},
+        {"Queue", queueKeys()},         {"Edit: insert", insertKeys()}, {"Edit: replace", replaceKeys()},
+        {"Edit: remove", removeKeys()},
     };
     std::string result;
     for (const Section& section : sections) {

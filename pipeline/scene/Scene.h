@@ -9,6 +9,7 @@
 
 #include <glm/glm.hpp>
 
+#include "core/Document.h"
 #include "core/Image.h"
 #include "scene/Camera.h"
 
@@ -68,7 +69,22 @@ struct TextureRef {
 
 enum class AlphaMode : std::uint8_t { Opaque, Mask, Blend };
 
-/// Metallic-roughness material of glTF 2.0.
+/// One pass of a material that names its effect; each is an object or null. Indices are those of the technique, so a
+/// pass that its `switch` drops keeps its place.
+struct MaterialPass {
+    Value defines;     ///< Macro → bool, integer or word.
+    Value states;      ///< Over the pass' own: the keys of an effect's pass, enums by name or by Cocos' integer.
+    Value properties;  ///< Name → number, list of numbers, name of a built-in texture, or index of a scene texture.
+};
+
+/// A material that is drawn by an effect of its own instead of the stage's.
+struct MaterialEffect {
+    std::string effect;  ///< As EffectLibrary finds it.
+    std::size_t technique = 0;
+    std::vector<MaterialPass> passes;  ///< May be shorter than the technique.
+};
+
+/// Metallic-roughness material of glTF 2.0, or values for an effect that the material names.
 struct SceneMaterial {
     std::string name;
     glm::vec4 baseColor{1};
@@ -79,6 +95,7 @@ struct SceneMaterial {
     AlphaMode alphaMode = AlphaMode::Opaque;
     float alphaCutoff = 0.5f;
     bool doubleSided = false;
+    std::optional<MaterialEffect> effect;  ///< Nothing: the stage's effect.
 };
 
 struct Instance {

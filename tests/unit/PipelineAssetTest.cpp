@@ -86,9 +86,9 @@ TEST(PipelineAsset, EveryKeyOfAStageArrives) {
     EXPECT_EQ(stage.reads.at(0).shaderName, "s");
     EXPECT_EQ(stage.reads.at(0).target, "out@1");
     EXPECT_EQ(stage.writes, std::vector<std::string>{"out"});
-    EXPECT_EQ(stage.queues.at(0).phase, "shadow-caster");
+    EXPECT_EQ(stage.queues.at(0).phases, std::vector<std::string>{"shadow-caster"});
     EXPECT_EQ(stage.queues.at(0).sort, QueueSort::BackToFront);
-    EXPECT_EQ(stage.queues.at(1).phase, "default");
+    EXPECT_EQ(stage.queues.at(1).phases, std::vector<std::string>{"default"});
     EXPECT_EQ(stage.queues.at(1).sort, QueueSort::FrontToBack);
 }
 
