@@ -21,6 +21,7 @@ const char* severityName(Severity severity) {
         case Severity::Warning:
             return "warning";
         case Severity::Note:
+        case Severity::Verbose:
             return "note";
     }
     return "error";
@@ -162,6 +163,10 @@ void Problems::error(SourceLoc where, std::string message, std::string help, std
 
 void Problems::warning(SourceLoc where, std::string message, std::string help) {
     problems_.push_back(makeProblem(Severity::Warning, std::move(where), std::move(message), std::move(help)));
+}
+
+void Problems::verbose(SourceLoc where, std::string message, std::string help) {
+    problems_.push_back(makeProblem(Severity::Verbose, std::move(where), std::move(message), std::move(help)));
 }
 
 void Problems::note(SourceLoc where, std::string message, std::string help) {

@@ -17,7 +17,7 @@ struct SourceLoc {
     int length = 1;
 };
 
-enum class Severity { Error, Warning, Note };
+enum class Severity { Error, Warning, Note, Verbose };
 
 /// A secondary remark of a problem: where the other half of a clash stands.
 struct Remark {
@@ -66,6 +66,8 @@ public:
     void error(SourceLoc where, std::string message, std::string help = {}, std::vector<Remark> remarks = {});
     void warning(SourceLoc where, std::string message, std::string help = {});
     void note(SourceLoc where, std::string message, std::string help = {});
+    /// A note that is said only when asked for details.
+    void verbose(SourceLoc where, std::string message, std::string help = {});
     /// Takes over the problems of an exception caught below.
     void add(const Error& error);
 

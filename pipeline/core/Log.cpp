@@ -43,6 +43,8 @@ LogLevel levelOf(Severity severity) {
             return LogLevel::Warning;
         case Severity::Note:
             return LogLevel::Note;
+        case Severity::Verbose:
+            return LogLevel::Verbose;
     }
     return LogLevel::Error;
 }

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "core/Text.h"
+#include "effect/EffectFrontEnd.h"
 #include "effect/Includes.h"
 #include "effect/ShaderCompiler.h"
 #include "effect/SpirvCache.h"
@@ -52,7 +53,9 @@ struct EffectLibrary::State {
     Log log;
     SpirvCache disk;
     ShaderCompiler compiler;
+    std::vector<std::unique_ptr<EffectFrontEnd>> frontEnds;
     std::map<std::string, std::unique_ptr<EffectAsset>> assets;  ///< By path.
+    std::map<const EffectAsset*, EffectFrontEnd*> readers;       ///< Of the assets that are not in our own dialect.
     std::map<std::string, const EffectAsset*> named;             ///< As the present roots find them.
     std::vector<std::unique_ptr<EffectVariant>> variants;
     std::map<std::string, const EffectVariant*> byRequest, byContent;
@@ -61,16 +64,56 @@ struct EffectLibrary::State {
     Counters counters;
 
     const EffectAsset& asset(const std::string& effect, const SourceLoc& where);
+    /// A file and who reads it; null = we do.
+    struct Found {
+        fs::path path;
+        EffectFrontEnd* reader = nullptr;
+    };
+    Found find(const std::string& effect, const SourceLoc& where) const;
     fs::path findFile(const std::string& effect, const SourceLoc& where) const;
+    std::vector<std::string> names() const;
+    EffectFrontEnd* readerOf(const EffectAsset& asset) const;
     const EffectPass& passOf(const EffectAsset& asset, const VariantRequest& request) const;
     IncludeSources sourcesOf(const EffectAsset& asset) const { return {asset, roots, chunks}; }
     std::vector<std::string> definesOfEffect(const EffectAsset& asset) const;
-    std::vector<StageSource> stagesOf(const EffectAsset& asset, const EffectPass& pass,
-                                      const VariantRequest& request) const;
+    std::vector<StageSource> stagesOf(const EffectAsset& asset, const EffectPass& pass, const VariantRequest& request,
+                                      const BindingMap& bindings) const;
     const EffectVariant& make(const VariantRequest& request, const BindingMap& bindings);
     std::vector<StageCode> codeFor(const std::string& key, const std::vector<StageSource>& sources,
                                    const BindingMap& bindings);
 };
+
+EffectLibrary::State::Found EffectLibrary::State::find(const std::string& effect, const SourceLoc& where) const {
+    const bool isPath = effect.ends_with(".effect");
+    std::error_code error;
+    std::string asked = effect;
+    if (isPath && fs::path(effect).is_relative() && !where.file.empty()) {
+        const fs::path beside = fs::path(where.file).parent_path() / effect;
+        if (fs::is_regular_file(beside, error)) asked = beside.string();
+    }
+    for (const auto& frontEnd : frontEnds)
+        if (auto path = frontEnd->find(asked)) return {std::move(*path), frontEnd.get()};
+    if (!isPath && !roots.find(AssetKind::Effect, effect))
+        for (const auto& frontEnd : frontEnds)
+            if (auto path = frontEnd->findShort(effect)) return {std::move(*path), frontEnd.get()};
+    return {findFile(effect, where), nullptr};
+}
+
+std::vector<std::string> EffectLibrary::State::names() const {
+    std::vector<std::string> all = roots.list(AssetKind::Effect);
+    for (const auto& frontEnd : frontEnds) {
+        const auto more = frontEnd->names();
+        all.insert(all.end(), more.begin(), more.end());
+    }
+    std::sort(all.begin(), all.end());
+    all.erase(std::unique(all.begin(), all.end()), all.end());
+    return all;
+}
+
+EffectFrontEnd* EffectLibrary::State::readerOf(const EffectAsset& asset) const {
+    const auto it = readers.find(&asset);
+    return it == readers.end() ? nullptr : it->second;
+}
 
 /// A name below effects/, or a path that ends with .effect: relative to the document that asks, else to the current
 /// folder.
@@ -90,20 +133,21 @@ fs::path EffectLibrary::State::findFile(const std::string& effect, const SourceL
         return path;
     }
     if (const auto path = roots.find(AssetKind::Effect, effect)) return *path;
-    throw Error(where, fmt::format("no effect '{}'", effect),
-                didYouMean(effect, roots.list(AssetKind::Effect), "effects"));
+    throw Error(where, fmt::format("no effect '{}'", effect), didYouMean(effect, names(), "effects"));
 }
 
 const EffectAsset& EffectLibrary::State::asset(const std::string& effect, const SourceLoc& where) {
     if (const auto it = named.find(effect); it != named.end()) return *it->second;
-    const fs::path path = findFile(effect, where);
+    const auto [path, reader] = find(effect, where);
     if (const auto it = assets.find(path.string()); it != assets.end()) return *(named[effect] = it->second.get());
     Problems problems;
     const std::string name = effect.ends_with(".effect") ? path.stem().string() : effect;
-    auto parsed =
-        std::make_unique<EffectAsset>(parseEffect(readText(path, kMaxEffectBytes), name, path.string(), problems));
+    auto parsed = std::make_unique<EffectAsset>(
+        reader != nullptr ? reader->parse(path, name, problems)
+                          : parseEffect(readText(path, kMaxEffectBytes), name, path.string(), problems));
     problems.throwIfErrors();
     log.write(problems);
+    if (reader != nullptr) readers[parsed.get()] = reader;
     return *(named[effect] = assets.emplace(path.string(), std::move(parsed)).first->second.get());
 }
 
@@ -132,8 +176,15 @@ std::vector<std::string> EffectLibrary::State::definesOfEffect(const EffectAsset
 }
 
 std::vector<StageSource> EffectLibrary::State::stagesOf(const EffectAsset& asset, const EffectPass& pass,
-                                                        const VariantRequest& request) const {
+                                                        const VariantRequest& request,
+                                                        const BindingMap& bindings) const {
     Problems problems;
+    if (EffectFrontEnd* reader = readerOf(asset)) {
+        auto texts = reader->stages(asset, pass, request, bindings, problems);
+        problems.throwIfErrors();
+        log.write(problems);
+        return texts;
+    }
     FlatPass flat = flattenPass(sourcesOf(asset), pass, problems);
     problems.throwIfErrors();
     const bool several = asset.techniques.size() > 1 || asset.techniques.front().passes.size() > 1;
@@ -164,7 +215,7 @@ std::vector<StageCode> EffectLibrary::State::codeFor(const std::string& key, con
 const EffectVariant& EffectLibrary::State::make(const VariantRequest& request, const BindingMap& bindings) {
     const EffectAsset& effect = asset(request.effect, request.where);
     const EffectPass& pass = passOf(effect, request);
-    const std::vector<StageSource> sources = stagesOf(effect, pass, request);
+    const std::vector<StageSource> sources = stagesOf(effect, pass, request, bindings);
     const std::string key = contentKey(sources, bindings);
     const std::string place = fmt::format("{} {} {} {}", effect.path, request.technique, request.pass, key);
     if (const auto it = byContent.find(place); it != byContent.end()) {
@@ -200,10 +251,20 @@ EffectLibrary::EffectLibrary(AssetRoots roots, const Log& log, Options options)
                        {},
                        {},
                        {},
+                       {},
+                       {},
                        0,
                        {}}) {}
 EffectLibrary::EffectLibrary(AssetRoots roots, const Log& log) : EffectLibrary(std::move(roots), log, Options{}) {}
 EffectLibrary::~EffectLibrary() = default;
+
+void EffectLibrary::addFrontEnd(std::unique_ptr<EffectFrontEnd> frontEnd) {
+    state_->frontEnds.insert(state_->frontEnds.begin(), std::move(frontEnd));
+    state_->named.clear();
+    ++state_->generation;
+}
+
+std::vector<std::string> EffectLibrary::names() const { return state_->names(); }
 
 const EffectAsset& EffectLibrary::asset(const std::string& effect, const SourceLoc& where) {
     return state_->asset(effect, where);
@@ -234,16 +295,20 @@ std::vector<DefineInfo> EffectLibrary::discoverDefines(const std::string& effect
     request.effect = effect;
     request.technique = technique;
     request.pass = pass;
+    const EffectPass& chosen = state_->passOf(found, request);
     Problems problems;
-    const FlatPass flat = flattenPass(state_->sourcesOf(found), state_->passOf(found, request), problems);
-    std::vector<DefineInfo> infos = findDefines(flat.pointers(), problems);
+    std::vector<DefineInfo> infos;
+    if (EffectFrontEnd* reader = state_->readerOf(found))
+        infos = reader->defines(found, chosen, problems);
+    else
+        infos = findDefines(flattenPass(state_->sourcesOf(found), chosen, problems).pointers(), problems);
     problems.throwIfErrors();
     return infos;
 }
 
 std::string EffectLibrary::text(const VariantRequest& request, ShaderStageBits stage) {
     const EffectAsset& found = asset(request.effect, request.where);
-    for (const StageSource& source : state_->stagesOf(found, state_->passOf(found, request), request))
+    for (const StageSource& source : state_->stagesOf(found, state_->passOf(found, request), request, {}))
         if (source.stage == stage) return source.head + source.text;
     return {};
 }

@@ -37,6 +37,8 @@ struct VariantRequest {
     SourceLoc where;  ///< Who asked, for "no effect named" errors.
 };
 
+class EffectFrontEnd;
+
 class EffectLibrary {
 public:
     struct Options {
@@ -45,6 +47,11 @@ public:
     EffectLibrary(AssetRoots roots, const Log& log, Options options);
     EffectLibrary(AssetRoots roots, const Log& log);
     ~EffectLibrary();
+
+    /// Effects are looked up there from now on, before all that is known so far (see EffectFrontEnd.h).
+    void addFrontEnd(std::unique_ptr<EffectFrontEnd> frontEnd);
+    /// Full names of all effects: the front ends' and our own, sorted.
+    std::vector<std::string> names() const;
 
     /// The parsed effect. Throws Error: no such effect (with near names), header and GLSL structure errors.
     const EffectAsset& asset(const std::string& effect, const SourceLoc& where = {});

@@ -41,12 +41,25 @@ bool parseStage(ParsedStage& stage, Problems& problems) {
     stage.shader->setEnvClient(glslang::EShClientVulkan, glslang::EShTargetVulkan_1_2);
     // SPIR-V 1.5: from 1.6 on glslang writes LocalSizeId, which needs a feature of Vulkan 1.3.
     stage.shader->setEnvTarget(glslang::EShTargetSpv, glslang::EShTargetSpv_1_5);
-    stage.shader->setAutoMapBindings(true);
-    stage.shader->setAutoMapLocations(true);
+    stage.shader->setAutoMapBindings(!stage.source->numbered);
+    stage.shader->setAutoMapLocations(!stage.source->numbered);
     const bool ok = stage.shader->parse(GetDefaultResources(), kGlslVersion, false, kMessages);
     reportGlslMessages(stage.shader->getInfoLog(), *stage.source, problems);
     if (!ok && !problems.hasErrors()) problems.error(stage.source->flat.locate(1), "the shader does not compile");
     return ok;
+}
+
+bool numberByName(glslang::TProgram& program, const std::vector<StageSource>& sources, const BindingMap& bindings,
+                  Problems& problems) {
+    std::map<EShLanguage, Declarations> declarations;
+    for (const StageSource& source : sources) declarations.emplace(toLanguage(source.stage), Declarations(source.flat));
+    BindingResolver resolver(
+        bindings, [&](EShLanguage stage, const std::string& name) { return declarations.at(stage).declared(name); },
+        problems);
+    glslang::TGlslIoMapper mapper;
+    const bool mapped = program.mapIO(&resolver, &mapper);
+    if (!mapped && !problems.hasErrors()) reportLinkMessages(program.getInfoLog(), sources, problems);
+    return !problems.hasErrors();
 }
 
 }  // namespace
@@ -83,15 +96,8 @@ std::vector<StageCode> ShaderCompiler::compile(const std::vector<StageSource>& s
         reportLinkMessages(program.getInfoLog(), sources, own);
         return fail();
     }
-    std::map<EShLanguage, Declarations> declarations;
-    for (const StageSource& source : sources) declarations.emplace(toLanguage(source.stage), Declarations(source.flat));
-    BindingResolver resolver(
-        bindings, [&](EShLanguage stage, const std::string& name) { return declarations.at(stage).declared(name); },
-        own);
-    glslang::TGlslIoMapper mapper;
-    const bool mapped = program.mapIO(&resolver, &mapper);
-    if (!mapped && !own.hasErrors()) reportLinkMessages(program.getInfoLog(), sources, own);
-    if (own.hasErrors()) return fail();
+    const bool numbered = std::all_of(sources.begin(), sources.end(), [](const auto& s) { return s.numbered; });
+    if (!numbered && !numberByName(program, sources, bindings, own)) return fail();
 
     std::vector<StageCode> code;
     for (const ParsedStage& stage : stages) {

@@ -14,9 +14,10 @@ namespace crevice {
 /// A stage ready for the compiler: head (version, defines) and flattened text.
 struct StageSource {
     ShaderStageBits stage = kVertexBit;
-    std::string head;  ///< Lines in front of the text; they have no place in a file.
-    std::string text;  ///< As `flat.text`, with lines emptied that are not GLSL, and the entry appended.
-    FlatSource flat;   ///< Places.
+    std::string head;       ///< Lines in front of the text; they have no place in a file.
+    std::string text;       ///< As `flat.text`, with lines emptied that are not GLSL, and the entry appended.
+    FlatSource flat;        ///< Places.
+    bool numbered = false;  ///< All locations, sets and bindings are written in `text`: the compiler keeps them.
 };
 
 struct StageCode {

@@ -1,0 +1,26 @@
+// Where a Cocos project keeps its files, and where the engine it was made with keeps its own.
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+namespace crevice::cocos {
+
+/// Folders of the user's own machine; all are read, none is written. An empty path = not given.
+struct Roots {
+    std::vector<std::filesystem::path> chunks;  ///< Searched for chunks before all others, first match wins.
+    std::filesystem::path project;              ///< A project folder (it holds `assets/`), or its assets folder itself.
+    std::filesystem::path engine;               ///< An engine checkout (it holds `editor/assets/`), or that folder.
+
+    /// PROJECT/assets where it exists, else the project folder itself; empty when none is given.
+    std::filesystem::path projectAssets() const;
+    /// ENGINE/editor/assets where it exists, else the engine folder itself; empty when none is given.
+    std::filesystem::path engineAssets() const;
+    /// The given folders that hold assets, project before engine: where effects, materials and metas are looked up.
+    std::vector<std::filesystem::path> assetFolders() const;
+    /// The folders below which `#include <a/b>` is `a/b.chunk`: `chunks`, then PROJECT/assets, its `chunks`, and the
+    /// engine's `chunks`.
+    std::vector<std::filesystem::path> chunkFolders() const;
+};
+
+}  // namespace crevice::cocos
