@@ -45,6 +45,7 @@ struct SurfaceProgram {
     std::vector<Wire> wires;                                   ///< Targets and keywords.
     std::vector<std::pair<BindingSlot, TextureRef>> textures;  ///< The scene's.
     bool doubleSided = false;
+    MeshTopology topology = MeshTopology::Triangles;
 };
 
 struct QueueProgram {
@@ -52,9 +53,13 @@ struct QueueProgram {
     std::vector<SurfaceProgram> surfaces;  ///< Index: surfaceIndex().
 };
 
-/// Surfaces are counted by material and by whether the mesh brings tangents.
-inline std::size_t surfaceIndex(int material, bool hasTangents) {
-    return std::size_t(material) * 2 + (hasTangents ? 1 : 0);
+/// Surfaces are counted by material, and by what meshes bring: their topology and whether they have tangents.
+constexpr std::size_t kSurfaceKinds = 6;
+inline std::size_t surfaceIndex(int material, MeshTopology topology, bool hasTangents) {
+    return std::size_t(material) * kSurfaceKinds + std::size_t(topology) * 2 + (hasTangents ? 1 : 0);
+}
+inline std::size_t surfaceIndex(int material, const Mesh& mesh) {
+    return surfaceIndex(material, mesh.topology, mesh.hasTangents);
 }
 
 struct StageProgram {

@@ -112,14 +112,15 @@ void ProgramCompiler::compileDraws(StageProgram& stage, Problems& problems) {
 
 void ProgramCompiler::compileQueue(const StageProgram& stage, QueueProgram& queue, const Scene& scene,
                                    Problems& problems) {
-    queue.surfaces.resize(scene.materials.size() * 2);
+    queue.surfaces.resize(scene.materials.size() * kSurfaceKinds);
     std::set<std::size_t> needed;
     for (const Instance& instance : scene.instances) {
-        needed.insert(surfaceIndex(instance.material, scene.meshes[std::size_t(instance.mesh)].hasTangents));
+        needed.insert(surfaceIndex(instance.material, scene.meshes[std::size_t(instance.mesh)]));
     }
     for (const std::size_t index : needed) {
         queue.surfaces[index] =
-            compileSurface(stage, queue.declaration, scene.materials[index / 2], index % 2 == 1, problems);
+            compileSurface(stage, queue.declaration, scene.materials[index / kSurfaceKinds], index % 2 == 1, problems);
+        queue.surfaces[index].topology = MeshTopology(index % kSurfaceKinds / 2);
     }
 }
 

@@ -20,6 +20,18 @@ bool usesSet(const ShaderInfo& info, std::uint32_t set) {
     return false;
 }
 
+Topology topologyOf(MeshTopology topology) {
+    switch (topology) {
+        case MeshTopology::Points:
+            return Topology::PointList;
+        case MeshTopology::Lines:
+            return Topology::LineList;
+        case MeshTopology::Triangles:
+            break;
+    }
+    return Topology::TriangleList;
+}
+
 std::uint32_t groupCount(std::uint32_t pixels, std::uint32_t local) { return (pixels + local - 1) / local; }
 
 }  // namespace
@@ -34,13 +46,12 @@ StageExecution::StageExecution(const ExecutionContext& context, StageProgram& pr
             depthFormat_ = format;
         if (write.write.kind == WriteKind::DepthTest) depthReadOnly_.push_back(write.write.target);
     }
-    for (const DrawProgram& draw : program.draws)
-        draws_.push_back(makeShader(*draw.variant, *draw.material, false, false));
+    for (const DrawProgram& draw : program.draws) draws_.push_back(makeShader(*draw.variant, *draw.material, nullptr));
     for (const QueueProgram& queue : program.queues) {
         std::vector<ShaderGpu>& shaders = queues_.emplace_back();
         for (const SurfaceProgram& surface : queue.surfaces) {
             if (surface.variant) {
-                shaders.push_back(makeShader(*surface.variant, *surface.material, true, surface.doubleSided));
+                shaders.push_back(makeShader(*surface.variant, *surface.material, &surface));
                 shaders.back().binding->writeSceneTextures(surface.textures, *scene);
             } else {
                 shaders.emplace_back();
@@ -50,7 +61,7 @@ StageExecution::StageExecution(const ExecutionContext& context, StageProgram& pr
 }
 
 StageExecution::ShaderGpu StageExecution::makeShader(const EffectVariant& variant, const Material& material,
-                                                     bool surface, bool doubleSided) {
+                                                     const SurfaceProgram* surface) {
     ShaderGpu shader;
     shader.binding.emplace(context_.bindings, variant, material);
     shader.usesLocal = usesSet(variant.info, 2);
@@ -63,7 +74,8 @@ StageExecution::ShaderGpu StageExecution::makeShader(const EffectVariant& varian
         return shader;
     }
     RenderState state = variant.pass->state;
-    if (doubleSided) state.cullMode = CullMode::None;
+    if (surface) state.topology = topologyOf(surface->topology);
+    if (surface && surface->doubleSided) state.cullMode = CullMode::None;
     shader.pipeline = &makePipeline(variant, layout, state);
     if (surface) {
         state.frontFaceCcw = !state.frontFaceCcw;
@@ -167,8 +179,8 @@ void StageExecution::drawQueue(QueueId queue, const glm::mat4& view, const glm::
         blended ? DrawFilter::Blend : DrawFilter::Opaque, blended ? DrawOrder::BackToFront : DrawOrder::FrontToBack);
     scene_->bindMeshes(context_.commands);
     for (const DrawBatch& batch : list.batches) {
-        const bool tangents = scene_->scene().meshes[std::size_t(batch.mesh)].hasTangents;
-        const ShaderGpu& shader = queues_[queue.index][surfaceIndex(batch.material, tangents)];
+        const Mesh& mesh = scene_->scene().meshes[std::size_t(batch.mesh)];
+        const ShaderGpu& shader = queues_[queue.index][surfaceIndex(batch.material, mesh)];
         if (!shader.pipeline) continue;
         bindShader(shader, batch.flipped);
         drawBatch(shader, batch, std::span(list.instances).subspan(batch.firstInstance, batch.instanceCount));

@@ -63,7 +63,8 @@ private:
         const Pipeline* flipped = nullptr;  ///< Surfaces: for instances that mirror.
         bool usesLocal = false;
     };
-    ShaderGpu makeShader(const EffectVariant& variant, const Material& material, bool surface, bool doubleSided);
+    /// `surface` is null for full-screen draws and dispatches.
+    ShaderGpu makeShader(const EffectVariant& variant, const Material& material, const SurfaceProgram* surface);
     const Pipeline& makePipeline(const EffectVariant& variant, const PipelineLayout& layout, RenderState state);
     void writeShaderTargets(ShaderGpu& shader, const std::vector<Wire>& wires);
     void bindShader(const ShaderGpu& shader, bool flipped);

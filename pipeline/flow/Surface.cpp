@@ -12,20 +12,29 @@ struct MapRow {
     const char* sampler;
     const char* useMacro;
     const char* uvMacro;
+    const char* row0;  ///< Properties of its UvTransform.
+    const char* row1;
 };
 constexpr MapRow kMaps[] = {
-    {&SceneMaterial::baseColorMap, "baseColorMap", "USE_BASE_COLOR_MAP", "BASE_COLOR_UV"},
+    {&SceneMaterial::baseColorMap, "baseColorMap", "USE_BASE_COLOR_MAP", "BASE_COLOR_UV", "baseColorUvRow0",
+     "baseColorUvRow1"},
     {&SceneMaterial::metallicRoughnessMap, "metallicRoughnessMap", "USE_METALLIC_ROUGHNESS_MAP",
-     "METALLIC_ROUGHNESS_UV"},
-    {&SceneMaterial::normalMap, "normalMap", "USE_NORMAL_MAP", "NORMAL_UV"},
-    {&SceneMaterial::occlusionMap, "occlusionMap", "USE_OCCLUSION_MAP", "OCCLUSION_UV"},
-    {&SceneMaterial::emissiveMap, "emissiveMap", "USE_EMISSIVE_MAP", "EMISSIVE_UV"},
+     "METALLIC_ROUGHNESS_UV", "metallicRoughnessUvRow0", "metallicRoughnessUvRow1"},
+    {&SceneMaterial::normalMap, "normalMap", "USE_NORMAL_MAP", "NORMAL_UV", "normalUvRow0", "normalUvRow1"},
+    {&SceneMaterial::occlusionMap, "occlusionMap", "USE_OCCLUSION_MAP", "OCCLUSION_UV", "occlusionUvRow0",
+     "occlusionUvRow1"},
+    {&SceneMaterial::emissiveMap, "emissiveMap", "USE_EMISSIVE_MAP", "EMISSIVE_UV", "emissiveUvRow0", "emissiveUvRow1"},
 };
 
 Value vectorValue(const float* components, int count) {
     Value value = Value::makeArray();
     for (int i = 0; i < count; ++i) value.items().push_back(Value::makeNumber(components[i]));
     return value;
+}
+
+Value rowValue(const UvTransform& transform, int index) {
+    const glm::vec3 row = transform.row(index);
+    return vectorValue(&row.x, 3);
 }
 
 Value propertiesOf(const SceneMaterial& material) {
@@ -44,18 +53,25 @@ Value propertiesOf(const SceneMaterial& material) {
 
 SurfaceInputs surfaceInputs(const SceneMaterial& material, bool meshHasTangents) {
     SurfaceInputs inputs;
+    inputs.properties = propertiesOf(material);
+    bool transformed = false;
     for (const MapRow& row : kMaps) {
         const TextureRef& ref = material.*row.ref;
         inputs.defines[row.useMacro] = ref ? "1" : "0";
         if (!ref) continue;
         inputs.defines[row.uvMacro] = ref.texcoord == 1 ? "1" : "0";
         inputs.textures.emplace_back(row.sampler, ref);
+        if (ref.transform.isIdentity()) continue;
+        transformed = true;
+        inputs.properties.set(row.row0, rowValue(ref.transform, 0));
+        inputs.properties.set(row.row1, rowValue(ref.transform, 1));
     }
+    inputs.defines["USE_TEXTURE_TRANSFORM"] = transformed ? "1" : "0";
+    inputs.defines["USE_UNLIT"] = material.unlit ? "1" : "0";
     inputs.defines["USE_ALPHA_TEST"] = material.alphaMode == AlphaMode::Mask ? "1" : "0";
     inputs.defines["USE_ALPHA_BLEND"] = material.alphaMode == AlphaMode::Blend ? "1" : "0";
     inputs.defines["USE_DOUBLE_SIDED"] = material.doubleSided ? "1" : "0";
     inputs.defines["HAS_TANGENTS"] = meshHasTangents ? "1" : "0";
-    inputs.properties = propertiesOf(material);
     return inputs;
 }
 

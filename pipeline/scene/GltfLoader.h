@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "core/Log.h"
@@ -29,6 +31,10 @@ struct LoadOptions {
     std::vector<std::filesystem::path> allowedRoots{};
     /// A `.scene.json` may name a glTF anywhere ("../…"). For trusted scenes only.
     bool allowOutside = false;
+    std::string scene{};          ///< Name or index of the glTF's scene to show; empty = its default one.
+    std::string animation{};      ///< Name or index of the animation to pose by; empty = the first, if `time` is given.
+    std::optional<float> time{};  ///< Seconds into the animation; nothing = the rest pose (0 if `animation` is given).
+    bool strict = false;          ///< Formal faults that do no harm are errors, not warnings.
 };
 
 /// Throws Error with the file and the path inside it (`accessors[3]`).

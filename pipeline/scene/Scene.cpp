@@ -43,6 +43,17 @@ Aabb Scene::bounds() const {
     return box;
 }
 
+// KHR_texture_transform: translation * rotation * scale of column vectors (u, v, 1).
+glm::vec3 UvTransform::row(int index) const {
+    const float c = std::cos(rotation), s = std::sin(rotation);
+    return index == 0 ? glm::vec3(c * scale.x, s * scale.y, offset.x) : glm::vec3(-s * scale.x, c * scale.y, offset.y);
+}
+
+glm::vec2 UvTransform::apply(const glm::vec2& uv) const {
+    const glm::vec3 place(uv, 1);
+    return {glm::dot(row(0), place), glm::dot(row(1), place)};
+}
+
 bool addDefaultLight(Scene& scene) {
     if (!scene.lights.empty() || scene.ambient) return false;
 

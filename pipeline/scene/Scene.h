@@ -36,9 +36,13 @@ struct Vertex {
 };
 static_assert(sizeof(Vertex) == 18 * sizeof(float));
 
-/// An indexed triangle list.
+/// What `indices` join: single vertices, pairs, or triples. Strips, loops and fans are unrolled when they are read.
+enum class MeshTopology : std::uint8_t { Points, Lines, Triangles };
+
+/// Indexed vertices of one topology.
 struct Mesh {
     std::string name;
+    MeshTopology topology = MeshTopology::Triangles;
     std::vector<Vertex> vertices;
     std::vector<std::uint32_t> indices;
     bool hasTangents = false;  ///< False: shaders derive the tangent frame from derivatives.
@@ -61,9 +65,20 @@ struct SceneTexture {
     SamplerDesc sampler;
 };
 
+/// How texture coordinates move before a texture is read (KHR_texture_transform): scaled, turned, shifted.
+struct UvTransform {
+    glm::vec2 offset{0}, scale{1};
+    float rotation = 0;  ///< Radians, the picture turns counter-clockwise.
+    bool isIdentity() const { return offset == glm::vec2(0) && scale == glm::vec2(1) && rotation == 0; }
+    /// Row 0 or 1 of the matrix: the new u (v) is the dot product with (u, v, 1).
+    glm::vec3 row(int index) const;
+    glm::vec2 apply(const glm::vec2& uv) const;
+};
+
 struct TextureRef {
     int texture = -1;  ///< Index into Scene::textures, -1 = none.
     int texcoord = 0;  ///< 0 or 1
+    UvTransform transform{};
     explicit operator bool() const { return texture >= 0; }
 };
 
@@ -95,6 +110,7 @@ struct SceneMaterial {
     AlphaMode alphaMode = AlphaMode::Opaque;
     float alphaCutoff = 0.5f;
     bool doubleSided = false;
+    bool unlit = false;  ///< Gives off baseColor + emissive whatever light there is (KHR_materials_unlit).
     std::optional<MaterialEffect> effect;  ///< Nothing: the stage's effect.
 };
 

@@ -51,7 +51,8 @@ bool passesAlphaTest(const Scene& scene, const Mesh& mesh, const SceneMaterial& 
     }
     alpha *= material.baseColor.a;
     if (material.baseColorMap)
-        alpha *= sampleAlpha(scene.textures[static_cast<std::size_t>(material.baseColorMap.texture)], uv);
+        alpha *= sampleAlpha(scene.textures[static_cast<std::size_t>(material.baseColorMap.texture)],
+                             material.baseColorMap.transform.apply(uv));
     return !(alpha < material.alphaCutoff);
 }
 

@@ -98,6 +98,7 @@ void RayScene::Impl::addInstance(std::size_t index) {
     const Mesh& mesh = source->meshes[static_cast<std::size_t>(instance.mesh)];
     const SceneMaterial& material = source->materials[static_cast<std::size_t>(instance.material)];
     if (material.alphaMode == AlphaMode::Blend || mesh.indices.size() < 3) return;
+    if (mesh.topology != MeshTopology::Triangles) return;
 
     RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
     auto* positions = static_cast<glm::vec3*>(rtcSetNewGeometryBuffer(

@@ -55,6 +55,7 @@ void addMesh(KeyText& key, const Mesh& mesh, const SceneMaterial& material) {
     }
     key.addHash(std::span<const float>(values));
     key.addHash(std::span<const std::uint32_t>(mesh.indices));
+    if (mesh.topology != MeshTopology::Triangles) key.add(mesh.topology);
 }
 
 void addMaterial(KeyText& key, const SceneMaterial& material, const Scene& scene) {
@@ -65,6 +66,8 @@ void addMaterial(KeyText& key, const SceneMaterial& material, const Scene& scene
     key.add(material.baseColor.a);
     key.add(static_cast<bool>(material.baseColorMap));
     if (!material.baseColorMap) return;
+    if (const UvTransform& moved = material.baseColorMap.transform; !moved.isIdentity())
+        for (int row = 0; row < 2; ++row) key.add(moved.row(row));
     const SceneTexture& texture = scene.textures[static_cast<std::size_t>(material.baseColorMap.texture)];
     key.add(texture.image.width);
     key.add(texture.image.height);

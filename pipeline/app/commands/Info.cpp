@@ -82,7 +82,8 @@ std::string camerasText(const Scene& scene) {
 std::size_t countTriangles(const Scene& scene) {
     std::size_t count = 0;
     for (const Instance& instance : scene.instances) {
-        count += scene.meshes[static_cast<std::size_t>(instance.mesh)].indices.size() / 3;
+        const Mesh& mesh = scene.meshes[static_cast<std::size_t>(instance.mesh)];
+        if (mesh.topology == MeshTopology::Triangles) count += mesh.indices.size() / 3;
     }
     return count;
 }
