@@ -1,0 +1,177 @@
+// The properties of a pass as handles: what a value feeds, from which component on, and the defaults put together.
+#include <algorithm>
+
+#include "cocos/Reflection.h"
+
+namespace crevice::cocos {
+namespace {
+
+constexpr int kFloat = 13, kFloat4 = 16, kSampler2D = 28;
+
+/// FLOAT … FLOAT4, INT … INT4, UINT … UINT4, BOOL … BOOL4: how many components; 0 = no vector.
+int componentsOf(int type) { return type >= 1 && type <= kFloat4 ? (type - 1) % 4 + 1 : 0; }
+
+struct Target {
+    std::string uniform;
+    int offset = 0;      ///< In components.
+    int components = 0;  ///< Of the swizzle; 0 = the whole uniform.
+};
+
+Target parseTarget(const std::string& text) {
+    const std::size_t dot = text.find('.');
+    Target target{text.substr(0, dot), 0, 0};
+    if (dot == std::string::npos) return target;
+    const std::string swizzle = text.substr(dot + 1);
+    const std::size_t first = std::string_view("xyzw").find(swizzle.empty() ? 'x' : swizzle.front());
+    target.offset = first == std::string_view::npos ? 0 : static_cast<int>(first);
+    target.components = static_cast<int>(std::clamp<std::size_t>(swizzle.size(), 1, 4));
+    return target;
+}
+
+Value listOf(const Value& value) {
+    if (value.isArray() || value.isString()) return value;
+    Value list = Value::makeArray();
+    list.items().push_back(value.isBool() ? Value::makeInteger(value.boolean() ? 1 : 0) : value);
+    return list;
+}
+
+int typeOfValue(const Value* value) {
+    if (value == nullptr) return 0;
+    if (value->isString()) return kSampler2D;
+    const std::size_t count = value->isArray() ? value->items().size() : 1;
+    return count >= 1 && count <= 4 ? kFloat + static_cast<int>(count) - 1 : 0;
+}
+
+int packed(const Value& sampler, const char* key, const std::vector<const char*>& names, int usual) {
+    const Value* value = sampler.find(key);
+    if (value == nullptr) return usual;
+    if (value->isNumber()) return static_cast<int>(value->number());
+    if (!value->isString()) return usual;
+    std::string word = value->string();
+    std::transform(word.begin(), word.end(), word.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    for (std::size_t i = 0; i < names.size(); ++i)
+        if (word == names[i]) return static_cast<int>(i);
+    return usual;
+}
+
+class PropertyReflection {
+public:
+    PropertyReflection(const Value& properties, const UniformTypes& uniforms)
+        : properties_(properties), uniforms_(uniforms) {}
+
+    Value run() {
+        Value all = Value::makeObject();
+        for (const Member& member : properties_.members())
+            if (member.value.isObject()) all.set(member.key, property(member.key, member.value));
+        for (auto& [name, value] : merged_)
+            if (all.find(name) == nullptr) all.set(name, std::move(value));
+        return all;
+    }
+
+private:
+    int uniformType(const std::string& name) const {
+        const auto it = uniforms_.find(name);
+        return it == uniforms_.end() ? 0 : it->second;
+    }
+
+    Value property(const std::string& name, const Value& written) {
+        const Value* value = written.find("value");
+        if (value != nullptr && value->isNull()) value = nullptr;
+        const Value* linear = written.find("linear");
+        const Value* targetText = written.find("target");
+        const bool targeted = targetText != nullptr && targetText->isString();
+        const Target target = parseTarget(targeted ? targetText->string() : name);
+
+        int type = uniformType(target.uniform);
+        if (target.components > 0) {
+            const int scalar = componentsOf(type) > 0 ? type - componentsOf(type) + 1 : kFloat;
+            type = scalar + target.components - 1;
+        }
+        if (type == 0) type = typeOfValue(value);
+
+        Value out = Value::makeObject();
+        if (value != nullptr) out.set("value", listOf(*value));
+        if (linear != nullptr && linear->isBool() && linear->boolean()) out.set("linear", Value::makeBool(true));
+        out.set("type", Value::makeInteger(type));
+        if (const Value* sampler = written.find("sampler"); sampler != nullptr && sampler->isObject())
+            out.set("samplerHash", Value::makeInteger(samplerHash(*sampler)));
+        if (targeted) {
+            Value handle = Value::makeArray();
+            handle.items() = {Value::makeString(target.uniform), Value::makeInteger(target.offset),
+                              Value::makeInteger(type)};
+            out.set("handleInfo", std::move(handle));
+            if (properties_.find(target.uniform) == nullptr) merge(target, type, value);
+        }
+        return out;
+    }
+
+    /// The uniform's own entry: zeros, and what its properties say of their components.
+    void merge(const Target& target, int propertyType, const Value* value) {
+        auto entry =
+            std::find_if(merged_.begin(), merged_.end(), [&](const auto& m) { return m.first == target.uniform; });
+        if (entry == merged_.end()) {
+            int type = uniformType(target.uniform);
+            if (type == 0) type = target.components > 0 ? kFloat4 : propertyType;
+            Value made = Value::makeObject();
+            made.set("type", Value::makeInteger(type));
+            if (componentsOf(type) > 0) {
+                Value zeros = Value::makeArray();
+                zeros.items().assign(static_cast<std::size_t>(componentsOf(type)), Value::makeInteger(0));
+                made.set("value", std::move(zeros));
+            }
+            merged_.emplace_back(target.uniform, std::move(made));
+            entry = merged_.end() - 1;
+        }
+        if (value == nullptr) return;
+        const Value list = listOf(*value);
+        if (list.isString()) {
+            if (entry->second.find("value") == nullptr) entry->second.set("value", list);
+            return;
+        }
+        Value* defaults = entry->second.find("value");
+        if (defaults == nullptr || !defaults->isArray()) return;
+        for (std::size_t i = 0; i < list.items().size(); ++i) {
+            const std::size_t component = static_cast<std::size_t>(target.offset) + i;
+            if (component < defaults->items().size()) defaults->items()[component] = list.items()[i];
+        }
+    }
+
+    const Value& properties_;
+    const UniformTypes& uniforms_;
+    std::vector<std::pair<std::string, Value>> merged_;  ///< In the order of the first property that feeds each.
+};
+
+}  // namespace
+
+std::int64_t samplerHash(const Value& sampler) {
+    static const std::vector<const char*> kFilters = {"none", "point", "linear", "anisotropic"};
+    static const std::vector<const char*> kAddresses = {"wrap", "mirror", "clamp", "border"};
+    static const std::vector<const char*> kComparisons = {"never",   "less",      "equal",         "less_equal",
+                                                          "greater", "not_equal", "greater_equal", "always"};
+    // Bits from 0 on: three filters and three addresses of 2 bits, anisotropy, comparison, LOD range and bias of 4.
+    struct Field {
+        const char* key;
+        const std::vector<const char*>& names;
+        int usual, shift;
+    };
+    const std::vector<const char*> none;
+    const Field fields[] = {
+        {"minFilter", kFilters, 2, 0},  {"magFilter", kFilters, 2, 2},    {"mipFilter", kFilters, 0, 4},
+        {"addressU", kAddresses, 0, 6}, {"addressV", kAddresses, 0, 8},   {"addressW", kAddresses, 0, 10},
+        {"maxAnisotropy", none, 8, 12}, {"cmpFunc", kComparisons, 0, 16}, {"minLOD", none, 0, 20},
+        {"maxLOD", none, 0, 24},        {"mipLODBias", none, 0, 28}};
+    std::int64_t hash = 0;
+    for (const Field& field : fields) {
+        int value = packed(sampler, field.key, field.names, field.usual);
+        if (value == 0) value = field.usual;  // as the engine: 0 means "not given"
+        hash |= std::int64_t(value & (field.shift < 12 ? 3 : 15)) << field.shift;
+    }
+    return hash;
+}
+
+Value reflectProperties(const Value& properties, const UniformTypes& uniforms) {
+    return PropertyReflection(properties, uniforms).run();
+}
+
+}  // namespace crevice::cocos

@@ -1,0 +1,146 @@
+// A recursive descent over the tokens of a whole-number expression.
+#include "cocos/TextConstants.h"
+
+#include <algorithm>
+#include <charconv>
+
+namespace crevice::cocos {
+
+/// One expression. `steps` is shared by all names that it leads to, so that hostile macros end in bounded time.
+class ConstantReader {
+public:
+    using Result = TextConstants::Result;
+
+    ConstantReader(const TextConstants& constants, const GlslToken* begin, const GlslToken* end, int depth, int& steps)
+        : constants_(constants), at_(begin), end_(end), depth_(depth), steps_(steps) {}
+
+    std::optional<Result> read() {
+        if (at_ == end_) return std::nullopt;
+        auto result = sum();
+        return at_ == end_ ? result : std::nullopt;
+    }
+
+private:
+    static constexpr int kMaxDepth = 32, kMaxSteps = 2000;
+    static constexpr std::int64_t kLargest = 1ll << 40;
+
+    bool take(std::string_view text) {
+        if (at_ == end_ || at_->text != text) return false;
+        ++at_;
+        return true;
+    }
+
+    std::optional<Result> sum() {
+        auto left = product();
+        while (left && at_ != end_) {
+            const bool plus = take("+"), minus = !plus && take("-");
+            if (!plus && !minus) break;
+            const auto right = product();
+            if (!right) return std::nullopt;
+            left = limited(
+                {plus ? left->value + right->value : left->value - right->value, left->certain && right->certain});
+        }
+        return left;
+    }
+
+    std::optional<Result> product() {
+        auto left = unary();
+        while (left && at_ != end_) {
+            const bool times = take("*"), by = !times && take("/"), rest = !times && !by && take("%");
+            if (!times && !by && !rest) break;
+            const auto right = unary();
+            if (!right || (!times && right->value == 0)) return std::nullopt;
+            const std::int64_t value = times ? multiply(left->value, right->value)
+                                       : by  ? left->value / right->value
+                                             : left->value % right->value;
+            left = limited({value, left->certain && right->certain});
+        }
+        return left;
+    }
+
+    std::optional<Result> unary() {
+        if (++depth_ > kMaxDepth || ++steps_ > kMaxSteps) return std::nullopt;
+        const bool negative = take("-");
+        auto result = negative ? unary() : primary();
+        if (negative && result) result->value = -result->value;
+        --depth_;
+        return result;
+    }
+
+    std::optional<Result> primary() {
+        if (at_ == end_) return std::nullopt;
+        if (take("(")) {
+            auto inner = sum();
+            return take(")") ? inner : std::nullopt;
+        }
+        const GlslToken& token = *at_++;
+        return token.isName() ? named(token.text) : number(token.text);
+    }
+
+    static std::optional<Result> number(std::string_view text) {
+        if (!text.empty() && (text.back() == 'u' || text.back() == 'U')) text.remove_suffix(1);
+        const bool hex = text.starts_with("0x") || text.starts_with("0X");
+        if (hex) text.remove_prefix(2);
+        Result result;
+        const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), result.value, hex ? 16 : 10);
+        if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+        return limited(result);
+    }
+
+    std::optional<Result> named(std::string_view name) {
+        std::optional<Result> largest;
+        if (const auto limit = constants_.limits_.find(name); limit != constants_.limits_.end())
+            largest = Result{limit->second, false};
+        const auto known = constants_.values_.find(name);
+        if (known == constants_.values_.end()) return largest;
+        for (const auto& range : known->second) {
+            const auto value = ConstantReader(constants_, range.begin, range.end, depth_ + 1, steps_).read();
+            if (!value) return std::nullopt;
+            if (largest) {
+                largest->certain = largest->certain && value->certain && largest->value == value->value;
+                largest->value = std::max(largest->value, value->value);
+            } else {
+                largest = value;
+            }
+        }
+        return largest;
+    }
+
+    static std::int64_t multiply(std::int64_t a, std::int64_t b) {
+        const bool fits = a == 0 || (b <= kLargest / std::max<std::int64_t>(1, std::abs(a)) &&
+                                     b >= -kLargest / std::max<std::int64_t>(1, std::abs(a)));
+        return fits ? a * b : kLargest + 1;
+    }
+
+    static std::optional<Result> limited(Result result) {
+        if (result.value > kLargest || result.value < -kLargest) return std::nullopt;
+        return result;
+    }
+
+    const TextConstants& constants_;
+    const GlslToken* at_;
+    const GlslToken* end_;
+    int depth_;
+    int& steps_;
+};
+
+void TextConstants::addDefine(const std::vector<GlslToken>& tokens, std::size_t first, std::size_t end) {
+    const std::size_t name = first + 2;
+    if (name >= end || !tokens[name].isName()) return;
+    const std::size_t value = name + 1;
+    const std::string_view word = tokens[name].text;
+    const bool function =
+        value < end && tokens[value].text == "(" && tokens[value].text.data() == word.data() + word.size();
+    if (!function) add(word, tokens.data() + value, tokens.data() + end);
+}
+
+void TextConstants::add(std::string_view name, const GlslToken* begin, const GlslToken* end) {
+    values_[name].push_back({begin, end});
+}
+
+std::optional<TextConstants::Result> TextConstants::evaluate(const GlslToken* begin, const GlslToken* end) const {
+    int steps = 0;
+    return ConstantReader(*this, begin, end, 0, steps).read();
+}
+
+}  // namespace crevice::cocos

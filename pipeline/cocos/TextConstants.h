@@ -1,0 +1,42 @@
+// Whole numbers that stand in a shader's text: array sizes, with the object-like macros and constants they are made of.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "effect/GlslText.h"
+
+namespace crevice::cocos {
+
+/// What `#define NAME value` and `const int NAME = value` of one text say. Conditions are not evaluated.
+class TextConstants {
+public:
+    struct Result {
+        std::int64_t value = 0;
+        bool certain = true;  ///< False: a name has several values, and the largest was taken.
+    };
+
+    /// Takes in a `#define` line, its `#` at `first`; function-like macros are no constants.
+    void addDefine(const std::vector<GlslToken>& tokens, std::size_t first, std::size_t end);
+    void add(std::string_view name, const GlslToken* begin, const GlslToken* end);
+    /// A number from outside of the text, uncertain: what a macro may be at most.
+    void addLimit(std::string_view name, std::int64_t largest) { limits_[name] = largest; }
+
+    /// + - * / % << >> and parentheses over numbers and names. Nothing when a name is unknown, a division is by zero,
+    /// or names go round in circles.
+    std::optional<Result> evaluate(const GlslToken* begin, const GlslToken* end) const;
+
+private:
+    friend class ConstantReader;
+    struct Range {
+        const GlslToken* begin;
+        const GlslToken* end;
+    };
+    std::map<std::string_view, std::vector<Range>> values_;
+    std::map<std::string_view, std::int64_t> limits_;
+};
+
+}  // namespace crevice::cocos
