@@ -143,7 +143,7 @@ TEST(CocosNumbering, TextsKeepTheirLines) {
     EXPECT_EQ(written({stageText(kVertexBit,
                                  "layout(std140,\n  binding = 3) uniform B {\n  vec4 a; };\nout mediump "
                                  "vec2 x,\n  y[2];\nvoid main() {}\n")})[0],
-              "\nlayout(set = 1, binding = 3, std140)  uniform B {\n  vec4 a; };\n"
+              "\n layout(set = 1, binding = 3, std140) uniform B {\n  vec4 a; };\n"
               "layout(location = 0) out mediump vec2 x; layout(location = 1) out mediump vec2 y[2]; \n\nvoid main() "
               "{}\n");
 }
