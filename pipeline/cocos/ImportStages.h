@@ -1,0 +1,48 @@
+// Internal to the importer: one Cocos stage becomes one or two of ours.
+#pragma once
+
+#include <set>
+#include <string>
+#include <vector>
+
+#include "cocos/Import.h"
+#include "cocos/ImportTargets.h"
+
+namespace crevice::cocos {
+
+class StageImporter {
+public:
+    StageImporter(const ImportRequest& request, const VersionChoice& version, Project& project, ImportTargets& targets,
+                  Problems& problems);
+
+    /// Our stages for one of Cocos', each an object of the document. Empty for those that are left out, with a note.
+    std::vector<Value> translate(const RppStage& stage);
+    /// Whether a stage wrote the frame's shadow maps: the document then has the option `shadows`.
+    bool hasShadows() const { return hasShadows_; }
+
+private:
+    std::vector<Value> shadowStages(const RppStage& stage);
+    std::vector<Value> geometryStage(const RppStage& stage);
+    std::vector<Value> lightingStages(const RppStage& stage);
+    std::vector<Value> postProcessStage(const RppStage& stage);
+    std::vector<Value> userStage(const RppStage& stage);
+
+    Value begin(const std::string& ourClass, const RppStage& stage, const std::string& suffix = {});
+    /// Effect, defines and values of the material in a field; the built-in effect when the field is null.
+    void addMaterial(Value& out, const RppStage& stage, std::string_view field, const std::string& builtin);
+    void addMaterialOf(Value& out, const AssetRef& ref, const std::string& what);
+    Value queuesOf(const RppStage& stage, bool transparent);
+    void noteFields(const RppStage& stage, std::initializer_list<std::string_view> used);
+    const StageFacts* factsOf(const std::string& name) const;
+    void unknownClass(const RppStage& stage);
+
+    const ImportRequest& request_;
+    const VersionChoice& version_;
+    Project& project_;
+    ImportTargets& targets_;
+    Problems& problems_;
+    std::set<std::string> names_;
+    bool hasShadows_ = false;
+};
+
+}  // namespace crevice::cocos

@@ -1,0 +1,40 @@
+// Internal to the importer: the images that a translated pipeline has.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "cocos/Project.h"
+#include "cocos/Rpp.h"
+
+namespace crevice::cocos {
+
+/// "targets" of a document, in order.
+class ImportTargets {
+public:
+    /// The G-buffer, lit picture, depth and final colour of a profile, as its stages expect them.
+    explicit ImportTargets(bool v33);
+
+    const std::string& litName() const { return litName_; }
+    bool has(const std::string& name) const { return list_.find(name) != nullptr; }
+    /// An image of the frame's size; nothing when the name is taken.
+    void add(const std::string& name, const std::string& format, const std::string& help);
+    /// The occlusion map of the article and the demo.
+    void addOcclusion(const std::string& name, bool v33);
+    void addShadowMap(const std::string& name, int size);
+    /// renderTextures and textures of the pipeline: sizes from the .rt file where it exists.
+    void addOf(const RppPipeline& pipeline, Project& project, Problems& problems);
+    Value take() { return std::move(list_); }
+
+private:
+    void addSized(const std::string& name, const std::string& format, double width, double height,
+                  const std::string& help);
+
+    Value list_ = Value::makeObject();
+    std::string litName_;
+};
+
+/// Our name for a number of the engine's Format enum (3.4 and later), "" for those we do not have.
+std::string formatName(std::int64_t gfxFormat);
+
+}  // namespace crevice::cocos
