@@ -156,7 +156,10 @@ void mergeDocument(PipelineTree& tree, const Value& document, Problems& problems
         const Value& value = member.value;
         const KeySpec* spec = pipelineKeys().find(member.key);
         if (!spec) continue;  // Reported when the file was read, as are values of a wrong type.
-        if (spec->kind == KeyKind::Text && value.isString() && member.key != "extends" && member.key != "$schema")
+        const bool isWord = spec->kind == KeyKind::Text || spec->kind == KeyKind::Choice;
+        if (isWord && value.isString() && member.key != "extends" && member.key != "$schema")
+            tree.document.set(member.key, value, member.keyLoc);
+        if ((member.key == "fallbacks" || member.key == "macros") && value.isObject())
             tree.document.set(member.key, value, member.keyLoc);
         if (isNumberOrOption(value, *spec)) tree.document.set(member.key, value, member.keyLoc);
         if (member.key == "plugins" && value.isArray()) mergePlugins(tree.document, value);

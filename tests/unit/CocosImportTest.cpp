@@ -1,0 +1,328 @@
+// .rpp → our document: versions, classes, materials, queues, targets; the text is valid and says what was left out.
+#include "cocos/Import.h"
+
+#include <gtest/gtest.h>
+
+#include "SceneTestTools.h"
+#include "core/Files.h"
+#include "plan/PipelineAsset.h"
+
+namespace crevice::cocos {
+namespace {
+
+namespace fs = std::filesystem;
+using test::contains;
+using test::errorOf;
+using test::TempFolder;
+
+constexpr const char* kMaterial = "10ff50d1-0000-4000-8000-000000f1736b";
+constexpr const char* kEffect = "7acaaaaa-1111-4222-8333-444455556666";
+
+const std::vector<StageFacts> kClasses = {
+    {"GbufferStage", {}, {}},
+    {"LightingStage", {}, {}},
+    {"PostProcessStage", {}, {}},
+    {"ShadowStage", {"light", "pcf"}, {}},
+    {"SsaoStage", {"seed", "kernel"}, {"cc_ssaoMap"}},
+};
+
+/// A project folder with one effect and one material for it.
+struct ProjectFolder {
+    TempFolder folder;
+    std::string notes;
+
+    ProjectFolder() {
+        write("package.json", "{}");
+        write("assets/pipeline/ssao.effect", R"(CCEffect %{
+  techniques:
+  - passes:
+    - vert: vs
+      frag: fs
+      phase: ssao
+      properties:
+        radius: { value: 1.0, target: params.x }
+        tint: { value: [1, 1, 1, 1] }
+        noise: { value: grey }
+}%
+)");
+        write("assets/pipeline/ssao.effect.meta", meta(kEffect, "effect"));
+        writeMaterial(R"([ { "radius": 2.5, "tint": { "__type__": "cc.Color", "r": 255, "g": 0, "b": 51, "a": 255 },
+                            "noise": { "__uuid__": "00000000-0000-4000-8000-000000000001" }, "strange": 1 } ])");
+    }
+    static std::string meta(const std::string& uuid, const std::string& importer) {
+        return R"({"importer":")" + importer + R"(","uuid":")" + uuid + "\"}";
+    }
+    void write(const std::string& name, const std::string& text) const { folder.write(name, text); }
+    void writeMaterial(const std::string& props) const {
+        write("assets/pipeline/ssao.mtl",
+              std::string(R"({ "__type__": "cc.Material", "_effectAsset": { "__uuid__": ")") + kEffect +
+                  R"(" }, "_defines": [ { "USE_BLUR": true } ], "_props": )" + props + "}");
+        write("assets/pipeline/ssao.mtl.meta", meta(kMaterial, "material"));
+    }
+    ImportedPipeline import(const std::string& rpp, const std::string& version = "", const fs::path& engine = {}) {
+        write("assets/pipeline/mine.rpp", rpp);
+        Problems problems;
+        const EffectReader effects = [](const fs::path& path, const std::string& name, Problems& found) {
+            return parseEffect(readText(path), name, path.string(), found, EffectReading::Tolerant);
+        };
+        Project project({.chunks = {}, .project = folder.path(), .engine = engine}, effects, problems);
+        ImportedPipeline imported =
+            importPipeline({.rpp = folder.path() / "assets/pipeline/mine.rpp", .classes = kClasses, .version = version},
+                           project, problems);
+        problems.throwIfErrors();
+        for (const Problem& problem : problems.all()) notes += formatProblem(problem) + "\n";
+        return imported;
+    }
+};
+
+PipelineDesc load(const std::string& text) { return parsePipeline(text, "test.json", AssetRoots({})); }
+
+std::string stagesOf(const PipelineDesc& desc) {
+    std::string text;
+    for (const FlowDesc& flow : desc.flows) {
+        text += flow.name + ":";
+        for (const StageDesc& stage : flow.stages) text += " " + stage.name;
+        text += "; ";
+    }
+    return text;
+}
+
+const StageDesc& stage(const PipelineDesc& desc, const std::string& name) {
+    for (const FlowDesc& flow : desc.flows)
+        for (const StageDesc& candidate : flow.stages)
+            if (candidate.name == name) return candidate;
+    throw std::runtime_error("no stage " + name);
+}
+
+/// The demo's shape; `ssao` stands in the stage's place.
+std::string mainFlow(const std::string& ssao) {
+    return R"([ { "__type__": "SsaoRenderPipeline", "_flows": [ { "__id__": 1 }, { "__id__": 2 } ], "renderTextures": [] },
+      { "__type__": "ShadowFlow", "_name": "ShadowFlow", "_stages": [ { "__type__": "ShadowStage", "_name": "ShadowStage" } ] },
+      { "__type__": "MainFlow", "_name": "MainFlow", "_priority": 1, "_stages": [
+        { "__type__": "GbufferStage", "renderQueues": [ { "__type__": "RenderQueueDesc", "isTransparent": false, "sortMode": 0, "stages": ["default"] } ] },)" +
+           ssao + R"(
+        { "__type__": "LightingStage", "_deferredMaterial": null,
+          "renderQueues": [ { "__type__": "RenderQueueDesc", "isTransparent": true, "sortMode": 1, "stages": ["default", "deferred", "default"] } ] },
+        { "__type__": "BloomStage", "_bloomMaterial": null },
+        { "__type__": "PostProcessStage", "_postProcessMaterial": null } ] } ])";
+}
+
+std::string ssaoStage(const std::string& fields) { return R"({ "__type__": "SsaoStage", )" + fields + "},"; }
+
+const std::string kSsao = ssaoStage(R"("ssaoMaterial": { "__uuid__": "10ff50d1-0000-4000-8000-000000f1736b" })");
+
+TEST(CocosImport, TheDemosShapeBecomesADocument) {
+    ProjectFolder project;
+    const ImportedPipeline imported = project.import(mainFlow(kSsao));
+    const PipelineDesc desc = load(imported.text);
+    EXPECT_EQ(desc.name, "mine");
+    EXPECT_EQ(desc.profile, Profile::Cocos36);
+    EXPECT_EQ(desc.output, "finalColor");
+    EXPECT_EQ(
+        stagesOf(desc),
+        "ShadowFlow: ShadowStage; MainFlow: GbufferStage SsaoStage LightingStage TransparentStage PostProcessStage; ");
+    EXPECT_FALSE(stage(desc, "ShadowStage").enabled);
+    EXPECT_EQ(stage(desc, "GbufferStage").queues.at(0).phases, std::vector<std::string>{"default"});
+    EXPECT_EQ(stage(desc, "LightingStage").effect, "pipeline/deferred-lighting");
+    EXPECT_EQ(stage(desc, "PostProcessStage").effect, "pipeline/post-process");
+    const StageDesc& blended = stage(desc, "TransparentStage");
+    EXPECT_EQ(blended.queues.at(0).phases, (std::vector<std::string>{"default", "deferred"}));
+    EXPECT_EQ(blended.queues.at(0).sort, QueueSort::BackToFront);
+    EXPECT_EQ(blended.writes, std::vector<std::string>{"lightingResult"});
+    EXPECT_TRUE(contains(project.notes, "stage 'BloomStage' is left out")) << project.notes;
+    EXPECT_TRUE(contains(project.notes, "'SsaoRenderPipeline' is a script"));
+}
+
+TEST(CocosImport, AUsersStageTakesItsMaterial) {
+    ProjectFolder project;
+    const PipelineDesc desc = load(project.import(mainFlow(kSsao)).text);
+    const StageDesc& ssao = stage(desc, "SsaoStage");
+    EXPECT_EQ(ssao.effect, "pipeline/ssao");
+    EXPECT_EQ(ssao.defines.toJson(-1), R"({"USE_BLUR":true})");
+    EXPECT_EQ(ssao.material.toJson(-1), R"({"radius":2.5,"tint":[1,0,0.2,1]})");
+    EXPECT_TRUE(contains(project.notes, "texture 'noise' of material 'ssao' is left out")) << project.notes;
+    const TargetDesc* map = desc.findTarget("cc_ssaoMap");
+    ASSERT_TRUE(map);
+    EXPECT_EQ(map->clear, glm::vec4(1));
+    EXPECT_EQ(map->format, Format::RGBA8);
+}
+
+TEST(CocosImport, FieldsOfAUsersStageBecomeParamsOrNotes) {
+    ProjectFolder project;
+    const PipelineDesc desc =
+        load(project
+                 .import(mainFlow(
+                     ssaoStage(R"("_seed": 5, "kernel": "article", "strength": 2, "_xMaterial": null, "_name": "Ao")")))
+                 .text);
+    EXPECT_EQ(stage(desc, "Ao").params.toJson(-1), R"({"seed":5,"kernel":"article"})");
+    EXPECT_TRUE(contains(project.notes, "field 'strength' of stage 'SsaoStage' is left out")) << project.notes;
+    EXPECT_TRUE(contains(project.notes, "params of the class: seed, kernel"));
+    EXPECT_FALSE(contains(project.notes, "'_xMaterial'"));
+}
+
+TEST(CocosImport, AnUnknownClassIsAnErrorThatListsTheRegisteredOnes) {
+    ProjectFolder project;
+    const std::string text = errorOf([&] { project.import(mainFlow(R"({ "__type__": "SsaoStages" },)")); });
+    EXPECT_TRUE(contains(text, "error: no stage class 'SsaoStages' is registered")) << text;
+    EXPECT_TRUE(contains(text, "mine.rpp:4:"));
+    EXPECT_TRUE(contains(text, "did you mean 'SsaoStage'?"));
+    EXPECT_TRUE(contains(text, "registered: GbufferStage, LightingStage, PostProcessStage, ShadowStage, SsaoStage"));
+}
+
+TEST(CocosImport, MissingAssetsAreErrorsWhereTheyAreNamed) {
+    ProjectFolder project;
+    const std::string unknown = errorOf([&] {
+        project.import(
+            mainFlow(ssaoStage(R"("ssaoMaterial": { "__uuid__": "10ff50d1-0000-4000-8000-000000000000" })")));
+    });
+    EXPECT_TRUE(contains(
+        unknown, "no .meta has the uuid '10ff50d1-0000-4000-8000-000000000000' of 'ssaoMaterial' of stage 'SsaoStage'"))
+        << unknown;
+    const std::string none =
+        errorOf([&] { project.import(mainFlow(ssaoStage(R"("ssaoMaterial": { "__uuid__": "nonsense" })"))); });
+    EXPECT_TRUE(contains(none, "'nonsense' of 'ssaoMaterial' of stage 'SsaoStage' is no uuid")) << none;
+    const std::string other = errorOf([&] {
+        project.import(
+            mainFlow(ssaoStage(R"("ssaoMaterial": { "__uuid__": "7acaaaaa-1111-4222-8333-444455556666" })")));
+    });
+    EXPECT_TRUE(contains(other, "which is no material")) << other;
+    project.write("assets/pipeline/ssao.mtl", "{");
+    EXPECT_TRUE(contains(errorOf([&] { project.import(mainFlow(kSsao)); }), "ssao.mtl:1:"));
+    project.writeMaterial(R"([ { "radius": "wide" } ])");
+    EXPECT_TRUE(contains(errorOf([&] { project.import(mainFlow(kSsao)); }), "property 'radius' is a word"));
+}
+
+TEST(CocosImport, ThePhaseListOfTheDemoIsReported) {
+    ProjectFolder project;
+    const PipelineDesc desc =
+        load(project
+                 .import(R"({ "__type__": "DeferredPipeline", "_flows": [ { "__type__": "MainFlow", "_stages": [
+        { "__type__": "LightingStage", "renderQueues": [ { "__type__": "RenderQueueDesc", "isTransparent": true, "sortMode": 1, "stages": [""] } ] } ] } ] })")
+                 .text);
+    EXPECT_EQ(stagesOf(desc), "MainFlow: LightingStage; ");
+    EXPECT_TRUE(contains(project.notes, "this queue of stage 'LightingStage' draws nothing: its phases are ['']"))
+        << project.notes;
+}
+
+TEST(CocosImport, PrioritiesSortStagesAndSayso) {
+    ProjectFolder project;
+    const PipelineDesc desc =
+        load(project
+                 .import(R"({ "__type__": "DeferredPipeline", "_flows": [ { "__type__": "MainFlow", "_stages": [
+        { "__type__": "PostProcessStage", "_priority": 30 }, { "__type__": "GbufferStage", "_priority": 10 },
+        { "__type__": "SsaoStage", "_priority": 10 } ] } ] })")
+                 .text);
+    EXPECT_EQ(stagesOf(desc), "MainFlow: GbufferStage SsaoStage PostProcessStage; ");
+    EXPECT_EQ(stage(desc, "GbufferStage").priority, 10);
+    EXPECT_TRUE(contains(project.notes, "'_priority' puts stages of 'MainFlow' into another order")) << project.notes;
+}
+
+TEST(CocosImport, EqualNamesBecomeUnique) {
+    ProjectFolder project;
+    const PipelineDesc desc = load(project
+                                       .import(R"({ "__type__": "DeferredPipeline", "_flows": [
+        { "__type__": "F", "_stages": [ { "__type__": "SsaoStage" }, { "__type__": "SsaoStage" }, { "__type__": "SsaoStage", "_name": "a.b" } ] },
+        { "__type__": "F", "_stages": [ { "__type__": "GbufferStage", "enabled": false } ] } ] })")
+                                       .text);
+    EXPECT_EQ(stagesOf(desc), "F: SsaoStage SsaoStage2 a_b; F2: GbufferStage; ");
+    EXPECT_FALSE(stage(desc, "GbufferStage").enabled);
+}
+
+TEST(CocosImport, APipelineWithoutFlowsHasItsDefaultOnes) {
+    ProjectFolder project;
+    EXPECT_EQ(stagesOf(load(project.import(R"({ "__type__": "DeferredPipeline", "_flows": [] })", "3.3.1").text)),
+              "ShadowFlow: ShadowStage; GbufferFlow: GbufferStage; LightingFlow: LightingStage TransparentStage "
+              "PostProcessStage; ");
+    EXPECT_EQ(stagesOf(load(project.import(R"({ "__type__": "DeferredPipeline", "_flows": [] })", "3.6.1").text)),
+              "ShadowFlow: ShadowStage; MainFlow: GbufferStage LightingStage TransparentStage PostProcessStage; ");
+    const std::string text = errorOf([&] { project.import(R"({ "__type__": "cc.RenderPipeline", "_flows": [] })"); });
+    EXPECT_TRUE(contains(text, "pipeline 'mine' has no flows")) << text;
+}
+
+TEST(CocosImport, TheGbufferFollowsTheVersion) {
+    ProjectFolder project;
+    const std::string rpp = R"({ "__type__": "DeferredPipeline", "_flows": [] })";
+    const PipelineDesc old = load(project.import(rpp, "3.3.1").text);
+    EXPECT_EQ(old.profile, Profile::Cocos33);
+    for (const char* name : {"cc_gbuffer_albedoMap", "cc_gbuffer_positionMap", "cc_gbuffer_normalMap",
+                             "cc_gbuffer_emissiveMap", "cc_lighting_resultMap"}) {
+        ASSERT_TRUE(old.findTarget(name)) << name;
+        EXPECT_EQ(old.findTarget(name)->format, Format::RGBA16F);
+    }
+    EXPECT_EQ(old.findTarget("depth")->clear.x, 1.0f);
+    const PipelineDesc recent = load(project.import(rpp, "3.4").text);
+    EXPECT_EQ(recent.profile, Profile::Cocos36);
+    for (const char* name : {"gbufferAlbedo", "gbufferNormal", "gbufferEmissive", "lightingResult"})
+        EXPECT_TRUE(recent.findTarget(name)) << name;
+    EXPECT_FALSE(recent.findTarget("cc_gbuffer_positionMap"));
+}
+
+TEST(CocosImport, TheVersionIsFoundOut) {
+    ProjectFolder project;
+    const std::string shaped33 =
+        R"({ "__type__": "DeferredPipeline", "_flows": [ { "__type__": "LightingFlow", "_stages": [ { "__type__": "LightingStage" } ] } ] })";
+    EXPECT_EQ(project.import(shaped33).version.profile, "cocos-3.3");
+    EXPECT_EQ(project.import(mainFlow("")).version.profile, "cocos-3.6");
+    project.write("package.json", R"({ "creator": { "version": "3.3.2" } })");
+    EXPECT_EQ(project.import(mainFlow("")).version.profile, "cocos-3.3");
+    project.write("engine/package.json", R"({ "version": "3.8.5" })");
+    EXPECT_EQ(project.import(shaped33, "", project.folder.path() / "engine").version.profile, "cocos-3.6");
+    EXPECT_EQ(project.import(shaped33, "3.2", project.folder.path() / "engine").version.profile, "cocos-3.3");
+    project.write("engine/package.json", "{ broken");
+    EXPECT_EQ(project.import(mainFlow(""), "", project.folder.path() / "engine").version.profile, "cocos-3.3");
+    for (const std::string bad : {"3", "x", "2.4.1", "3.", "3.x", "3.6 "})
+        EXPECT_TRUE(contains(errorOf([&] { project.import(shaped33, bad); }), "is no version of Cocos Creator 3"))
+            << bad;
+}
+
+TEST(CocosImport, TexturesOfThePipelineBecomeTargets) {
+    ProjectFolder project;
+    project.write("assets/half.rt", "{}");
+    project.write(
+        "assets/half.rt.meta",
+        R"({"importer":"render-texture","uuid":"00000000-0000-4000-8000-000000000002","userData":{"width":512,"height":256}})");
+    const PipelineDesc desc = load(project
+                                       .import(R"({ "__type__": "DeferredPipeline", "_flows": [], "renderTextures": [
+        { "__type__": "RenderTextureConfig", "name": "half", "texture": { "__uuid__": "00000000-0000-4000-8000-000000000002" } } ],
+        "textures": [ { "__type__": "RenderTextureDesc", "name": "wide", "format": 41 },
+                      { "__type__": "RenderTextureDesc", "name": "odd", "format": 999, "width": 8, "height": 4 } ] })")
+                                       .text);
+    ASSERT_TRUE(desc.findTarget("half"));
+    EXPECT_EQ(desc.findTarget("half")->size, glm::uvec2(512, 256));
+    EXPECT_EQ(desc.findTarget("wide")->format, Format::RGBA16F);
+    EXPECT_FALSE(desc.findTarget("wide")->size.has_value());
+    EXPECT_EQ(desc.findTarget("odd")->size, glm::uvec2(8, 4));
+    EXPECT_TRUE(contains(project.notes, "format 999 of texture 'odd' becomes RGBA8"));
+}
+
+TEST(CocosImport, ForwardPipelinesDrawTwoQueues) {
+    ProjectFolder project;
+    const PipelineDesc desc = load(project.import(R"({ "__type__": "ForwardPipeline", "_flows": [] })").text);
+    EXPECT_EQ(stagesOf(desc), "ShadowFlow: ShadowStage; ForwardFlow: ForwardStage TransparentStage; ");
+    EXPECT_EQ(stage(desc, "ForwardStage").writes, std::vector<std::string>{"finalColor"});
+    EXPECT_EQ(stage(desc, "ForwardStage").queues.size(), 1u);
+    EXPECT_EQ(stage(desc, "TransparentStage").queues.at(0).sort, QueueSort::BackToFront);
+}
+
+TEST(CocosImport, TheTextIsForPeople) {
+    ProjectFolder project;
+    const std::string text = project.import(mainFlow(kSsao)).text;
+    EXPECT_TRUE(contains(text, "\n  \"profile\": \"cocos-3.6\",\n")) << text;
+    EXPECT_TRUE(contains(text, "\n    \"depth\": { \"format\": \"D32F\", \"clear\": 1 },\n"));
+    EXPECT_TRUE(
+        contains(text, "{ \"stage\": \"PostProcessStage\", \"priority\": 0, \"effect\": \"pipeline/post-process\" }"));
+    EXPECT_TRUE(contains(text, "\"help\": \"Translated from mine.rpp (SsaoRenderPipeline).\""));
+    std::size_t longest = 0, start = 0;
+    for (std::size_t end; (end = text.find('\n', start)) != std::string::npos; start = end + 1)
+        longest = std::max(longest, end - start);
+    EXPECT_LE(longest, 130u);
+}
+
+TEST(CocosImport, TheProjectFolderIsFoundAboveAFile) {
+    ProjectFolder project;
+    EXPECT_EQ(findProjectFolder(project.folder.path() / "assets/pipeline/mine.rpp"), project.folder.path());
+    EXPECT_EQ(findProjectFolder("/"), std::nullopt);
+}
+
+}  // namespace
+}  // namespace crevice::cocos
