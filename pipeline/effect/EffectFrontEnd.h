@@ -35,6 +35,9 @@ public:
     virtual EffectAsset parse(const std::filesystem::path& path, const std::string& name, Problems& problems) = 0;
     /// The macros of a pass that a request may set, in order of first appearance (vertex, then fragment).
     virtual std::vector<DefineInfo> defines(const EffectAsset& effect, const EffectPass& pass, Problems& problems) = 0;
+    /// Changes whenever stages() may answer otherwise to the same request: a hash over all that it reads. Empty:
+    /// unknown, and nothing is cached by request.
+    virtual std::string fingerprint() { return {}; }
     /// The final texts of a pass: head, then GLSL 4.50 in which every location, set and binding is written out
     /// (`StageSource::numbered`). Names in `bindings` get those numbers; others go to set 1.
     virtual std::vector<StageSource> stages(const EffectAsset& effect, const EffectPass& pass,

@@ -27,13 +27,22 @@ std::string requestKey(const VariantRequest& request, const BindingMap& bindings
     return key;
 }
 
-/// Everything the compiler sees: its version, the texts, and the numbers of the names that the texts contain.
+/// Everything that a compiled pass is made of: the compiler's version, the texts with their places, and the numbers of
+/// the names that the texts contain.
 std::string contentKey(const std::vector<StageSource>& sources, const BindingMap& bindings) {
     std::string content = ShaderCompiler::version() + "\n";
-    for (const StageSource& source : sources)
+    bool numbered = true;
+    for (const StageSource& source : sources) {
         content += fmt::format("stage {}\n{}{}\n", static_cast<int>(source.stage), source.head, source.text);
+        for (const std::string& file : source.flat.files) content += file + "\n";
+        for (const FlatSource::Origin& origin : source.flat.lines) {
+            const std::int64_t place = (std::int64_t(origin.file) << 32) | origin.line;
+            content.append(reinterpret_cast<const char*>(&place), sizeof place);
+        }
+        numbered = numbered && source.numbered;
+    }
     for (const auto& [name, slot] : bindings) {
-        const bool named = std::any_of(sources.begin(), sources.end(), [&](const StageSource& source) {
+        const bool named = !numbered && std::any_of(sources.begin(), sources.end(), [&](const StageSource& source) {
             return source.text.find(name) != std::string::npos;
         });
         if (named) content += fmt::format("{}:{}.{}\n", name, slot.set, slot.binding);
@@ -77,10 +86,13 @@ struct EffectLibrary::State {
     IncludeSources sourcesOf(const EffectAsset& asset) const { return {asset, roots, chunks}; }
     std::vector<std::string> definesOfEffect(const EffectAsset& asset) const;
     std::vector<StageSource> stagesOf(const EffectAsset& asset, const EffectPass& pass, const VariantRequest& request,
-                                      const BindingMap& bindings) const;
+                                      const BindingMap& bindings, Problems& said) const;
     const EffectVariant& make(const VariantRequest& request, const BindingMap& bindings);
-    std::vector<StageCode> codeFor(const std::string& key, const std::vector<StageSource>& sources,
-                                   const BindingMap& bindings);
+    CompiledPass compiledFor(const std::string& key, const std::vector<StageSource>& sources,
+                             const BindingMap& bindings);
+    std::string askKey(const EffectAsset& effect, const VariantRequest& request, const BindingMap& bindings) const;
+    const EffectVariant& keep(const EffectAsset& effect, const VariantRequest& request, const std::string& place,
+                              CompiledPass compiled);
 };
 
 EffectLibrary::State::Found EffectLibrary::State::find(const std::string& effect, const SourceLoc& where) const {
@@ -176,15 +188,14 @@ std::vector<std::string> EffectLibrary::State::definesOfEffect(const EffectAsset
 }
 
 std::vector<StageSource> EffectLibrary::State::stagesOf(const EffectAsset& asset, const EffectPass& pass,
-                                                        const VariantRequest& request,
-                                                        const BindingMap& bindings) const {
-    Problems problems;
+                                                        const VariantRequest& request, const BindingMap& bindings,
+                                                        Problems& said) const {
     if (EffectFrontEnd* reader = readerOf(asset)) {
-        auto texts = reader->stages(asset, pass, request, bindings, problems);
-        problems.throwIfErrors();
-        log.write(problems);
+        auto texts = reader->stages(asset, pass, request, bindings, said);
+        said.throwIfErrors();
         return texts;
     }
+    Problems problems;
     FlatPass flat = flattenPass(sourcesOf(asset), pass, problems);
     problems.throwIfErrors();
     const bool several = asset.techniques.size() > 1 || asset.techniques.front().passes.size() > 1;
@@ -195,49 +206,77 @@ std::vector<StageSource> EffectLibrary::State::stagesOf(const EffectAsset& asset
     return sources;
 }
 
-std::vector<StageCode> EffectLibrary::State::codeFor(const std::string& key, const std::vector<StageSource>& sources,
-                                                     const BindingMap& bindings) {
-    std::vector<StageCode> code = disk.load(key);
-    const bool complete = std::equal(code.begin(), code.end(), sources.begin(), sources.end(),
-                                     [](const StageCode& c, const StageSource& s) { return c.stage == s.stage; });
-    if (complete) {
+CompiledPass EffectLibrary::State::compiledFor(const std::string& key, const std::vector<StageSource>& sources,
+                                               const BindingMap& bindings) {
+    if (auto kept = disk.load(key)) {
         ++counters.fromDisk;
-        return code;
+        return std::move(*kept);
     }
     Problems problems;
-    code = compiler.compile(sources, bindings, problems);
+    CompiledPass compiled;
+    compiled.code = compiler.compile(sources, bindings, problems);
+    problems.throwIfErrors();
+    compiled.info = reflectStages(compiled.code, sources, problems);
     problems.throwIfErrors();
     ++counters.compiled;
-    disk.store(key, code);
-    return code;
+    disk.store(key, compiled);
+    return compiled;
 }
 
-const EffectVariant& EffectLibrary::State::make(const VariantRequest& request, const BindingMap& bindings) {
-    const EffectAsset& effect = asset(request.effect, request.where);
-    const EffectPass& pass = passOf(effect, request);
-    const std::vector<StageSource> sources = stagesOf(effect, pass, request, bindings);
-    const std::string key = contentKey(sources, bindings);
-    const std::string place = fmt::format("{} {} {} {}", effect.path, request.technique, request.pass, key);
-    if (const auto it = byContent.find(place); it != byContent.end()) {
-        ++counters.fromMemory;
-        return *it->second;
-    }
+/// What a request to a front end depends on; empty when the front end does not say what its texts depend on.
+std::string EffectLibrary::State::askKey(const EffectAsset& effect, const VariantRequest& request,
+                                         const BindingMap& bindings) const {
+    EffectFrontEnd* reader = readerOf(effect);
+    const std::string fingerprint = reader != nullptr ? reader->fingerprint() : std::string();
+    if (fingerprint.empty()) return {};
+    return contentHash(fmt::format("{}\n{}\n{}\n{}", ShaderCompiler::version(), fingerprint, effect.path,
+                                   requestKey(request, bindings, 0)));
+}
+
+const EffectVariant& EffectLibrary::State::keep(const EffectAsset& effect, const VariantRequest& request,
+                                                const std::string& place, CompiledPass compiled) {
     auto variant = std::make_unique<EffectVariant>();
-    variant->name = variantName(effect.name, pass);
+    variant->pass = &passOf(effect, request);
+    variant->name = variantName(effect.name, *variant->pass);
     variant->effect = request.effect;
-    variant->pass = &pass;
     variant->id = variants.size() + 1;
-    std::vector<StageCode> code = codeFor(key, sources, bindings);
-    Problems problems;
-    variant->info = reflectStages(code, sources, problems);
-    problems.throwIfErrors();
-    for (StageCode& stage : code)
+    variant->info = std::move(compiled.info);
+    for (StageCode& stage : compiled.code)
         (stage.stage == kVertexBit     ? variant->vertex
          : stage.stage == kFragmentBit ? variant->fragment
                                        : variant->compute) = std::move(stage.words);
     byContent[place] = variant.get();
     variants.push_back(std::move(variant));
     return *variants.back();
+}
+
+const EffectVariant& EffectLibrary::State::make(const VariantRequest& request, const BindingMap& bindings) {
+    const EffectAsset& effect = asset(request.effect, request.where);
+    const EffectPass& pass = passOf(effect, request);
+    const auto placeOf = [&](const std::string& key) {
+        return fmt::format("{} {} {} {}", effect.path, request.technique, request.pass, key);
+    };
+    const std::string asked = askKey(effect, request, bindings);
+    if (const auto answer = asked.empty() ? std::nullopt : disk.loadAnswer(asked)) {
+        if (auto kept = disk.load(answer->content)) {
+            Problems said;
+            if (!answer->problems.empty()) said.add(Error(answer->problems));
+            log.write(said);
+            ++counters.fromDisk;
+            return keep(effect, request, placeOf(answer->content), std::move(*kept));
+        }
+    }
+    Problems said;
+    const std::vector<StageSource> sources = stagesOf(effect, pass, request, bindings, said);
+    log.write(said);
+    const std::string key = contentKey(sources, bindings);
+    if (const auto it = byContent.find(placeOf(key)); it != byContent.end()) {
+        ++counters.fromMemory;
+        return *it->second;
+    }
+    CompiledPass compiled = compiledFor(key, sources, bindings);
+    if (!asked.empty()) disk.storeAnswer(asked, {key, said.all()});
+    return keep(effect, request, placeOf(key), std::move(compiled));
 }
 
 EffectLibrary::EffectLibrary(AssetRoots roots, const Log& log, Options options)
@@ -272,12 +311,11 @@ const EffectAsset& EffectLibrary::asset(const std::string& effect, const SourceL
 
 const EffectVariant& EffectLibrary::get(const VariantRequest& request, const BindingMap& bindings) {
     const std::string key = requestKey(request, bindings, state_->generation);
-    if (const auto it = state_->byRequest.find(key); it != state_->byRequest.end()) {
-        ++state_->counters.fromMemory;
-        return *it->second;
-    }
-    const EffectVariant& variant = state_->make(request, bindings);
+    const auto it = state_->byRequest.find(key);
+    if (it != state_->byRequest.end()) ++state_->counters.fromMemory;
+    const EffectVariant& variant = it != state_->byRequest.end() ? *it->second : state_->make(request, bindings);
     state_->byRequest[key] = &variant;
+    if (!request.checkOnly && !variant.info.refusals.empty()) throw Error(variant.info.refusals);
     return variant;
 }
 
@@ -308,7 +346,8 @@ std::vector<DefineInfo> EffectLibrary::discoverDefines(const std::string& effect
 
 std::string EffectLibrary::text(const VariantRequest& request, ShaderStageBits stage) {
     const EffectAsset& found = asset(request.effect, request.where);
-    for (const StageSource& source : state_->stagesOf(found, state_->passOf(found, request), request, {}))
+    Problems said;
+    for (const StageSource& source : state_->stagesOf(found, state_->passOf(found, request), request, {}, said))
         if (source.stage == stage) return source.head + source.text;
     return {};
 }

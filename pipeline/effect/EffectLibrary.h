@@ -34,7 +34,8 @@ struct VariantRequest {
     std::size_t technique = 0;
     std::size_t pass = 0;
     Defines defines;
-    SourceLoc where;  ///< Who asked, for "no effect named" errors.
+    SourceLoc where;         ///< Who asked, for "no effect named" errors.
+    bool checkOnly = false;  ///< Nothing will be drawn with it: resources that Crevice does not bind are no error.
 };
 
 class EffectFrontEnd;

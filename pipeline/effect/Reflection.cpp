@@ -83,7 +83,12 @@ ImageUse scanImages(const std::vector<std::uint32_t>& words) {
 class StageReflection {
 public:
     StageReflection(const StageCode& code, const StageSource& source, ShaderInfo& info, Problems& problems)
-        : code_(code), names_(source.flat), compiler_(code.words), info_(info), problems_(problems) {}
+        : code_(code),
+          numbered_(source.numbered),
+          names_(source.flat),
+          compiler_(code.words),
+          info_(info),
+          problems_(problems) {}
 
     void run() {
         active_ = compiler_.get_active_interface_variables();
@@ -183,8 +188,15 @@ private:
     void refuse(const sc::Resource& r, const char* what, const char* help) {
         std::string name = compiler_.get_name(r.id);
         if (names_.declared(name).line == 0) name = compiler_.get_name(r.base_type_id);
-        problems_.error(names_.declared(name), fmt::format("'{}' is {}, which Crevice does not bind", name, what),
-                        help);
+        Problem problem{Severity::Error,
+                        names_.declared(name),
+                        fmt::format("'{}' is {}, which Crevice does not bind", name, what),
+                        help,
+                        {}};
+        if (!numbered_)
+            problems_.error(problem.where, problem.message, problem.help);
+        else if (active_.contains(r.id))
+            info_.refusals.push_back(std::move(problem));
     }
 
     template <class Resources>
@@ -196,6 +208,7 @@ private:
     }
 
     const StageCode& code_;
+    bool numbered_;
     Declarations names_;
     sc::Compiler compiler_;
     ShaderInfo& info_;

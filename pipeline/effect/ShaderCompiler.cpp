@@ -11,6 +11,7 @@
 #include "effect/BindingResolver.h"
 #include "effect/Declarations.h"
 #include "effect/GlslMessages.h"
+#include "effect/SpirvCheck.h"
 
 namespace crevice {
 namespace {
@@ -62,6 +63,44 @@ bool numberByName(glslang::TProgram& program, const std::vector<StageSource>& so
     return !problems.hasErrors();
 }
 
+StageCode translate(glslang::TProgram& program, ShaderStageBits stage) {
+    glslang::SpvOptions options;
+    options.disableOptimizer = true;  // What is reflected must be what runs; see SPIRV-Cross' active set.
+    StageCode code;
+    code.stage = stage;
+    glslang::GlslangToSpv(*program.getIntermediate(toLanguage(stage)), code.words, &options);
+    return code;
+}
+
+bool linkTogether(std::vector<ParsedStage>& stages, const std::vector<StageSource>& sources, const BindingMap& bindings,
+                  std::vector<StageCode>& code, Problems& problems) {
+    glslang::TProgram program;
+    for (const ParsedStage& stage : stages) program.addShader(stage.shader.get());
+    if (!program.link(kMessages)) {
+        reportLinkMessages(program.getInfoLog(), sources, problems);
+        return false;
+    }
+    if (!numberByName(program, sources, bindings, problems)) return false;
+    for (const ParsedStage& stage : stages) code.push_back(translate(program, stage.source->stage));
+    return true;
+}
+
+/// Stages whose numbers are written out agree by those: what one declares otherwise than the other in parts that
+/// neither uses is nobody's business.
+bool linkEach(std::vector<ParsedStage>& stages, const std::vector<StageSource>& sources, std::vector<StageCode>& code,
+              Problems& problems) {
+    for (const ParsedStage& stage : stages) {
+        glslang::TProgram program;
+        program.addShader(stage.shader.get());
+        if (!program.link(kMessages)) {
+            reportLinkMessages(program.getInfoLog(), sources, problems);
+            return false;
+        }
+        code.push_back(translate(program, stage.source->stage));
+    }
+    return true;
+}
+
 }  // namespace
 
 struct ShaderCompiler::Process {
@@ -90,29 +129,17 @@ std::vector<StageCode> ShaderCompiler::compile(const std::vector<StageSource>& s
     }
     if (!parsed || own.hasErrors()) return fail();
 
-    glslang::TProgram program;  // Declared behind the shaders: it must go first.
-    for (const ParsedStage& stage : stages) program.addShader(stage.shader.get());
-    if (!program.link(kMessages)) {
-        reportLinkMessages(program.getInfoLog(), sources, own);
-        return fail();
-    }
     const bool numbered = std::all_of(sources.begin(), sources.end(), [](const auto& s) { return s.numbered; });
-    if (!numbered && !numberByName(program, sources, bindings, own)) return fail();
-
     std::vector<StageCode> code;
-    for (const ParsedStage& stage : stages) {
-        glslang::SpvOptions options;
-        options.disableOptimizer = true;  // What is reflected must be what runs; see SPIRV-Cross' active set.
-        StageCode& out = code.emplace_back();
-        out.stage = stage.source->stage;
-        glslang::GlslangToSpv(*program.getIntermediate(toLanguage(out.stage)), out.words, &options);
-    }
-    return code;
+    const bool linked =
+        numbered ? linkEach(stages, sources, code, own) : linkTogether(stages, sources, bindings, code, own);
+    for (std::size_t i = 0; linked && i < code.size(); ++i) checkSpirv(code[i], sources[i], own);
+    return linked && !own.hasErrors() ? code : fail();
 }
 
 std::string ShaderCompiler::version() {
     // The last number changes when our own numbering or options do.
-    return fmt::format("glslang {}.{}.{} crevice 1", GLSLANG_VERSION_MAJOR, GLSLANG_VERSION_MINOR,
+    return fmt::format("glslang {}.{}.{} crevice 2", GLSLANG_VERSION_MAJOR, GLSLANG_VERSION_MINOR,
                        GLSLANG_VERSION_PATCH);
 }
 

@@ -43,7 +43,7 @@ private:
 };
 
 /// What the code declares and uses; places are looked up in the sources. Reports kinds of resources Crevice has no use
-/// for.
+/// for; of numbered sources those that are used become `refusals`.
 ShaderInfo reflectStages(const std::vector<StageCode>& code, const std::vector<StageSource>& sources,
                          Problems& problems);
 

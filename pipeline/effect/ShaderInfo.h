@@ -66,6 +66,9 @@ struct ShaderInfo {
     std::vector<ShaderVariable> inputs;      ///< Vertex attributes.
     std::vector<ShaderVariable> outputs;     ///< Fragment outputs.
     std::uint32_t localSize[3] = {1, 1, 1};  ///< Compute.
+    /// What the program uses and Crevice does not bind (texel buffers, subpass inputs, …), of effects in another
+    /// dialect: they compile, but nothing can be drawn with them.
+    std::vector<Problem> refusals;
 
     const ShaderResource* find(std::string_view name) const;
 };

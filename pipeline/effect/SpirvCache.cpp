@@ -1,79 +1,64 @@
-// SPIR-V on disk: magic, stages as (stage bit, word count, words), then the content hash of all that.
+// Files of the cache: magic, body, then the content hash of both.
 #include "effect/SpirvCache.h"
-
-#include <cstring>
 
 #include "core/Files.h"
 
 namespace crevice {
 namespace {
 
-constexpr std::string_view kMagic = "CREVICE SPIRV 1\n";
+constexpr std::string_view kMagic = "CREVICE SPIRV 2\n";
 constexpr std::size_t kHashLength = 32;
-constexpr std::uint32_t kSpirvMagic = 0x07230203;
 constexpr std::size_t kMaxBytes = 64u << 20;
-
-void append(std::string& out, const void* data, std::size_t bytes) {
-    out.append(static_cast<const char*>(data), bytes);
-}
-
-std::string serialise(const std::vector<StageCode>& code) {
-    std::string out(kMagic);
-    for (const StageCode& stage : code) {
-        const std::uint32_t head[2] = {stage.stage, static_cast<std::uint32_t>(stage.words.size())};
-        append(out, head, sizeof head);
-        append(out, stage.words.data(), stage.words.size() * sizeof(std::uint32_t));
-    }
-    return out + contentHash(out);
-}
-
-std::vector<StageCode> deserialise(std::string_view file) {
-    if (!file.starts_with(kMagic) || file.size() < kMagic.size() + kHashLength) return {};
-    const std::string_view body = file.substr(0, file.size() - kHashLength);
-    if (contentHash(body) != file.substr(body.size())) return {};
-    std::vector<StageCode> code;
-    for (std::size_t at = kMagic.size(); at < body.size();) {
-        std::uint32_t head[2];
-        if (body.size() - at < sizeof head) return {};
-        std::memcpy(head, body.data() + at, sizeof head);
-        at += sizeof head;
-        const std::size_t bytes = std::size_t(head[1]) * sizeof(std::uint32_t);
-        if (bytes == 0 || body.size() - at < bytes) return {};
-        StageCode& stage = code.emplace_back();
-        stage.stage = static_cast<ShaderStageBits>(head[0]);
-        stage.words.resize(head[1]);
-        std::memcpy(stage.words.data(), body.data() + at, bytes);
-        if (stage.words[0] != kSpirvMagic) return {};
-        at += bytes;
-    }
-    return code;
-}
-
-std::filesystem::path fileOf(const std::filesystem::path& folder, const std::string& key) {
-    return folder / (key + ".spv");
-}
 
 }  // namespace
 
-std::vector<StageCode> SpirvCache::load(const std::string& key) const {
-    if (!folder_) return {};
+std::optional<std::string> SpirvCache::read(const std::string& file) const {
+    if (!folder_) return std::nullopt;
     try {
         std::error_code error;
-        const auto file = fileOf(*folder_, key);
-        if (!std::filesystem::is_regular_file(file, error)) return {};
-        return deserialise(readText(file, kMaxBytes));
+        const auto path = *folder_ / file;
+        if (!std::filesystem::is_regular_file(path, error)) return std::nullopt;
+        std::string bytes = readText(path, kMaxBytes);
+        if (!bytes.starts_with(kMagic) || bytes.size() < kMagic.size() + kHashLength) return std::nullopt;
+        const std::string hash = bytes.substr(bytes.size() - kHashLength);
+        bytes.resize(bytes.size() - kHashLength);
+        if (contentHash(bytes) != hash) return std::nullopt;
+        bytes.erase(0, kMagic.size());
+        return bytes;
     } catch (const Error&) {
-        return {};
+        return std::nullopt;
     }
 }
 
-void SpirvCache::store(const std::string& key, const std::vector<StageCode>& code) const {
+void SpirvCache::write(const std::string& file, const std::string& body) const {
     if (!folder_) return;
     try {
-        writeFileAtomically(fileOf(*folder_, key), serialise(code));
+        const std::string bytes = std::string(kMagic) + body;
+        writeFileAtomically(*folder_ / file, bytes + contentHash(bytes));
     } catch (const Error&) {
         // A full or read-only disk costs time, not correctness.
     }
+}
+
+std::optional<CompiledPass> SpirvCache::load(const std::string& key) const {
+    const auto bytes = read(key + ".spv");
+    return bytes ? compiledPassFrom(*bytes) : std::nullopt;
+}
+
+void SpirvCache::store(const std::string& key, const CompiledPass& pass) const {
+    if (folder_) write(key + ".spv", toBytes(pass));
+}
+
+std::optional<SpirvCache::Answer> SpirvCache::loadAnswer(const std::string& request) const {
+    const auto bytes = read(request + ".ask");
+    if (!bytes || bytes->size() < kHashLength) return std::nullopt;
+    auto problems = problemsFrom(std::string_view(*bytes).substr(kHashLength));
+    if (!problems) return std::nullopt;
+    return Answer{bytes->substr(0, kHashLength), std::move(*problems)};
+}
+
+void SpirvCache::storeAnswer(const std::string& request, const Answer& answer) const {
+    if (folder_) write(request + ".ask", answer.content + toBytes(answer.problems));
 }
 
 }  // namespace crevice

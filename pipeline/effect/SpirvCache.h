@@ -1,4 +1,5 @@
-// SPIR-V on disk by content hash, so that glslang is not even started for a shader that was compiled before.
+// Compiled passes on disk: by content, so that glslang is not even started for what was compiled before, and by
+// request, so that not even a text is put together.
 #pragma once
 
 #include <filesystem>
@@ -6,21 +7,31 @@
 #include <string>
 #include <vector>
 
-#include "effect/ShaderCompiler.h"
+#include "effect/ShaderBytes.h"
 
 namespace crevice {
 
-/// Damaged files count as absent; a folder that cannot be written is no error.
+/// Damaged files count as absent; a folder that cannot be written is no error. Keys are contentHash()es.
 class SpirvCache {
 public:
     /// Without a folder nothing is found and nothing is kept.
     explicit SpirvCache(std::optional<std::filesystem::path> folder) : folder_(std::move(folder)) {}
 
-    /// `key` is a contentHash().
-    std::vector<StageCode> load(const std::string& key) const;
-    void store(const std::string& key, const std::vector<StageCode>& code) const;
+    std::optional<CompiledPass> load(const std::string& key) const;
+    void store(const std::string& key, const CompiledPass& pass) const;
+
+    /// What a request came to: the key of its content, and what was said of it on the way.
+    struct Answer {
+        std::string content;
+        std::vector<Problem> problems;
+    };
+    std::optional<Answer> loadAnswer(const std::string& request) const;
+    void storeAnswer(const std::string& request, const Answer& answer) const;
 
 private:
+    std::optional<std::string> read(const std::string& file) const;
+    void write(const std::string& file, const std::string& body) const;
+
     std::optional<std::filesystem::path> folder_;
 };
 
