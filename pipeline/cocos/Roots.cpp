@@ -28,9 +28,10 @@ std::vector<fs::path> Roots::chunkFolders() const {
     std::vector<fs::path> folders = chunks;
     std::error_code error;
     for (const fs::path& assets : assetFolders()) {
-        folders.push_back(assets);
         if (fs::is_directory(assets / "chunks", error)) folders.push_back(assets / "chunks");
+        folders.push_back(assets);
     }
+    if (!project.empty() && fs::is_directory(project / "extensions", error)) folders.push_back(project / "extensions");
     return folders;
 }
 

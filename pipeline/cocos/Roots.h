@@ -18,8 +18,8 @@ struct Roots {
     std::filesystem::path engineAssets() const;
     /// The given folders that hold assets, project before engine: where effects, materials and metas are looked up.
     std::vector<std::filesystem::path> assetFolders() const;
-    /// The folders below which `#include <a/b>` is `a/b.chunk`: `chunks`, then PROJECT/assets, its `chunks`, and the
-    /// engine's `chunks`.
+    /// The folders below which `#include <a/b>` is `a/b.chunk`: `chunks`, the project's assets/chunks and assets, the
+    /// same of the engine, and the project's extensions.
     std::vector<std::filesystem::path> chunkFolders() const;
 };
 

@@ -40,6 +40,7 @@ struct StageText {
     std::vector<PragmaMark> marks;        ///< Ascending by line.
     std::vector<std::string> extensions;  ///< Whole lines for the head: "#extension NAME : require".
     std::vector<StageMacro> macros;       ///< In order of first occurrence; without engine constants.
+    std::vector<std::string> defined;     ///< Names that the text defines itself, sorted.
     /// Per line of `flat.text` the index of its enclosing conditions in `conditions` (0 = none). Each is a list of
     /// macro names, "!" in front of those that must be off; only simple names are kept.
     std::vector<std::uint32_t> conditionOf;

@@ -21,7 +21,8 @@ struct FlatSource {
     };
     std::string text;  ///< Every line ends with a newline.
     std::vector<std::string> files;
-    std::vector<Origin> lines;  ///< Per line of `text`.
+    std::vector<Origin> lines;      ///< Per line of `text`.
+    std::map<int, Origin> calls{};  ///< Lines (counted from 1) that a macro wrote: where it was called.
 
     /// The author's place of a line of `text`, counted from 1; beyond the ends the nearest line.
     SourceLoc locate(int line, int column = 0, int length = 1) const;

@@ -1,0 +1,106 @@
+// The five rules of #include.
+#include "cocos/ChunkLibrary.h"
+
+#include <fmt/format.h>
+
+#include "core/Files.h"
+#include "core/Text.h"
+
+namespace crevice::cocos {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool isInside(const fs::path& path, const fs::path& folder) {
+    std::error_code error;
+    if (folder.empty()) return false;
+    const fs::path relative = fs::weakly_canonical(path, error).lexically_relative(fs::weakly_canonical(folder, error));
+    return !relative.empty() && *relative.begin() != "..";
+}
+
+}  // namespace
+
+ChunkLibrary::Found ChunkLibrary::find(const EffectAsset& effect, const std::string& name, const fs::path& folder) {
+    if (effect.programs.contains(name)) return {readProgram(effect, name), {}};
+    const auto key = std::pair(folder.string(), name);
+    if (const auto it = found_.find(key); it != found_.end()) return it->second;
+    Found found;
+    if (name.starts_with('/') || name.find('\0') != std::string::npos) {
+        found.help = "names of chunks are relative";
+    } else if (name.starts_with('.')) {
+        const fs::path path = (folder / (name + ".chunk")).lexically_normal();
+        if (mayRead(path, effect))
+            found.source = readBeside(name, folder);
+        else
+            found.help = "the path leads out of the project, the engine and the chunk folders";
+        if (found.source == nullptr && found.help.empty()) found.help = fmt::format("looked for {}", path.string());
+    } else if (const auto* entry = index().find(name)) {
+        found.source = readFile(entry->path, name);
+    } else if (const SourceText* beside = readBeside(name, folder); beside && mayRead(beside->file, effect)) {
+        found.source = beside;
+    } else {
+        const auto ending = index().endingWith(name);
+        if (ending.size() == 1) found.source = readFile(ending.front()->path, name);
+        if (ending.size() > 1)
+            found.help = fmt::format("'{}' and '{}' both end so: name more of the path", ending[0]->path.string(),
+                                     ending[1]->path.string());
+    }
+    if (found.source == nullptr && found.help.empty()) {
+        std::vector<std::string> known = index().names();
+        for (const auto& [program, text] : effect.programs) known.push_back(program);
+        const auto near = nearestNames(name, known);
+        if (!near.empty()) found.help = fmt::format("did you mean '{}'? ", join(near, "', '"));
+        found.help += "chunk folders: ";
+        std::vector<std::string> folders;
+        for (const fs::path& path : roots_.chunkFolders()) folders.push_back(path.string());
+        found.help += folders.empty() ? "none; give --project, --engine or --chunks" : join(folders);
+    }
+    return found_[key] = found;
+}
+
+bool ChunkLibrary::isOfEngine(const SourceText& source) const { return isInside(source.file, roots_.engine); }
+
+/// Files of the author's own folders only: an effect may not read what it was not given.
+bool ChunkLibrary::mayRead(const fs::path& path, const EffectAsset& effect) const {
+    if (isInside(path, fs::path(effect.path).parent_path())) return true;
+    if (isInside(path, roots_.project) || isInside(path, roots_.engine)) return true;
+    for (const fs::path& folder : roots_.chunks)
+        if (isInside(path, folder)) return true;
+    return false;
+}
+
+const SourceText* ChunkLibrary::readBeside(const std::string& name, const fs::path& folder) {
+    std::error_code error;
+    const fs::path path = (folder / (name + ".chunk")).lexically_normal();
+    return fs::is_regular_file(path, error) ? readFile(path, name) : nullptr;
+}
+
+const SourceText* ChunkLibrary::readFile(const fs::path& path, const std::string& name) {
+    std::error_code error;
+    const fs::path real = fs::weakly_canonical(path, error);
+    auto& source = files_[(error ? path : real).string()];
+    if (source) return source.get();
+    const std::string text = readText(path, kMaxBytes);
+    bytes_ += text.size();
+    if (bytes_ > kMaxTotal)
+        throw Error(SourceLoc{path.string()},
+                    fmt::format("the chunks read so far have more than {} MB", kMaxTotal >> 20),
+                    "includes grow without end, or the folders hold no shaders");
+    source = readSource(text, name, path.string(), path.parent_path(), 1);
+    return source.get();
+}
+
+const SourceText* ChunkLibrary::readProgram(const EffectAsset& effect, const std::string& name) {
+    auto& source = programs_[{effect.path, name}];
+    if (source) return source.get();
+    const EffectProgram& program = effect.programs.find(name)->second;
+    source = readSource(program.text, name, effect.path, fs::path(effect.path).parent_path(), program.firstLine);
+    return source.get();
+}
+
+const FileIndex& ChunkLibrary::index() {
+    if (!index_) index_.emplace(roots_.chunkFolders(), ".chunk");
+    return *index_;
+}
+
+}  // namespace crevice::cocos

@@ -1,0 +1,157 @@
+// Puts the steps together: find, parse, flatten, analyse, number, head.
+#include "cocos/CocosEffects.h"
+
+#include <fmt/format.h>
+
+#include <deque>
+
+#include "cocos/ChunkLibrary.h"
+#include "cocos/Flattener.h"
+#include "cocos/StageAnalysis.h"
+#include "core/Files.h"
+#include "effect/VariantBuilder.h"
+
+namespace crevice::cocos {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kMaxEffectBytes = 16u << 20;
+/// Flattened stages that are kept: the passes of a technique share them.
+constexpr std::size_t kKeptStages = 8;
+
+/// With an entry, main() is ours: it hands the entry's result to the place where the stage's result goes.
+std::string_view entryText(ShaderStageBits stage) {
+    if (stage == kVertexBit) return "void main() {{ gl_Position = {}(); }}\n";
+    if (stage == kComputeBit) return "void main() {{ {}(); }}\n";
+    return "layout(location = 0) out vec4 cc_FragColor; void main() {{ cc_FragColor = {}(); }}\n";
+}
+
+void appendEntry(StageText& text, const std::string& entry, const SourceLoc& where) {
+    text.flat.text += fmt::format(fmt::runtime(entryText(text.stage)), entry);
+    text.flat.files.push_back(where.file);
+    text.flat.lines.push_back({static_cast<std::uint32_t>(text.flat.files.size() - 1), where.line});
+    text.conditionOf.push_back(0);
+}
+
+struct StagePart {
+    ShaderStageBits stage;
+    const std::string& reference;
+    const SourceLoc& where;
+};
+
+std::vector<StagePart> partsOf(const EffectPass& pass) {
+    std::vector<StagePart> parts;
+    if (!pass.vertex.empty()) parts.push_back({kVertexBit, pass.vertex, pass.vertexWhere});
+    if (!pass.fragment.empty()) parts.push_back({kFragmentBit, pass.fragment, pass.fragmentWhere});
+    if (!pass.compute.empty()) parts.push_back({kComputeBit, pass.compute, pass.computeWhere});
+    return parts;
+}
+
+}  // namespace
+
+struct CocosEffects::State {
+    State(Roots given, Options chosen) : roots(std::move(given)), options(chosen), effects(roots), chunks(roots) {}
+
+    const Roots roots;
+    const Options options;
+    const EffectNames effects;
+    ChunkLibrary chunks;
+    struct Kept {
+        std::string key;
+        StageText text;
+    };
+    std::deque<Kept> kept;
+
+    StageText stageText(const EffectAsset& effect, const StagePart& part, Problems& problems);
+};
+
+StageText CocosEffects::State::stageText(const EffectAsset& effect, const StagePart& part, Problems& problems) {
+    const std::string key = fmt::format("{}\n{}\n{}", effect.path, part.reference, static_cast<int>(part.stage));
+    for (const Kept& present : kept)
+        if (present.key == key) return present.text;
+    Problems own;
+    StageText text;
+    try {
+        const ProgramReference reference = parseProgram(part.reference);
+        text = analyzeStage(part.stage, flattenStage(effect, reference.program, part.where, chunks, {}, own), own);
+        if (!reference.entry.empty()) appendEntry(text, reference.entry, part.where);
+    } catch (const Error& error) {
+        own.add(error);
+    }
+    problems.add(Error(own.all()));
+    if (own.hasErrors()) return {};
+    kept.push_back({key, text});
+    if (kept.size() > kKeptStages) kept.pop_front();
+    return text;
+}
+
+CocosEffects::CocosEffects(Roots roots, Options options) : state_(new State(std::move(roots), options)) {}
+CocosEffects::CocosEffects(Roots roots) : CocosEffects(std::move(roots), Options{}) {}
+CocosEffects::~CocosEffects() = default;
+
+std::optional<fs::path> CocosEffects::find(const std::string& effect) const {
+    if (!effect.ends_with(".effect")) return state_->effects.find(effect);
+    std::error_code error;
+    const fs::path path = effect;
+    if (!fs::is_regular_file(path, error)) return state_->effects.find(effect.substr(0, effect.size() - 7));
+    if (state_->effects.nameOf(path)) return path;
+    for (const fs::path& folder : state_->roots.chunks) {
+        const fs::path relative =
+            fs::weakly_canonical(path, error).lexically_relative(fs::weakly_canonical(folder, error));
+        if (!relative.empty() && *relative.begin() != "..") return path;
+    }
+    return std::nullopt;
+}
+
+std::optional<fs::path> CocosEffects::findShort(const std::string& effect) const {
+    return state_->effects.findShort(effect);
+}
+
+std::vector<std::string> CocosEffects::names() const { return state_->effects.names(); }
+
+EffectAsset CocosEffects::parse(const fs::path& path, const std::string& name, Problems& problems) {
+    const std::string shown = state_->effects.nameOf(path).value_or(name);
+    return parseEffect(readText(path, kMaxEffectBytes), shown, path.string(), problems, EffectReading::Tolerant);
+}
+
+std::vector<StageText> CocosEffects::flatten(const EffectAsset& effect, const EffectPass& pass, Problems& problems) {
+    std::vector<StageText> texts;
+    Problems own;
+    for (const StagePart& part : partsOf(pass)) texts.push_back(state_->stageText(effect, part, own));
+    problems.add(Error(own.all()));
+    if (own.hasErrors()) texts.clear();
+    return texts;
+}
+
+std::vector<DefineInfo> CocosEffects::defines(const EffectAsset& effect, const EffectPass& pass, Problems& problems) {
+    std::vector<DefineInfo> infos;
+    for (StageMacro& macro : mergeMacros(flatten(effect, pass, problems))) infos.push_back(std::move(macro.info));
+    return infos;
+}
+
+std::vector<StageSource> CocosEffects::stages(const EffectAsset& effect, const EffectPass& pass,
+                                              const VariantRequest& request, const BindingMap& bindings,
+                                              Problems& problems) {
+    std::vector<StageText> texts = flatten(effect, pass, problems);
+    if (texts.empty()) return {};
+    const std::vector<StageMacro> macros = mergeMacros(texts);
+    Defines values = request.defines;
+    for (const auto& [name, value] : pass.embeddedMacros) values[name] = value;  // They win: Cocos merges them last.
+    for (const auto& [name, value] : values)
+        if (value.find('\n') != std::string::npos)
+            problems.error(request.where, fmt::format("the value of define '{}' has several lines", name));
+    numberStages(texts, bindings, state_->options.numbering, problems);
+    std::vector<StageSource> sources;
+    for (StageText& text : texts) {
+        StageSource& source = sources.emplace_back();
+        source.stage = text.stage;
+        source.numbered = true;
+        source.head = makeHead(text, macros, values);
+        source.flat = std::move(text.flat);
+        source.text = source.flat.text;
+    }
+    return sources;
+}
+
+}  // namespace crevice::cocos

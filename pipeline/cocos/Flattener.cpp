@@ -1,0 +1,325 @@
+// Walks programs and chunks line by line.
+#include "cocos/Flattener.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+#include <unordered_map>
+#include <unordered_set>
+
+#include "cocos/MacroCall.h"
+#include "cocos/MacroTable.h"
+#include "cocos/Pragmas.h"
+
+namespace crevice::cocos {
+namespace {
+
+using Origin = FlatSource::Origin;
+
+/// "<name>" or "\"name\"", without an ending; empty = malformed.
+std::string_view includedName(std::string_view rest) {
+    if (rest.size() < 3 || (rest[0] != '<' && rest[0] != '"')) return {};
+    const auto end = rest.find(rest[0] == '<' ? '>' : '"', 1);
+    if (end == std::string_view::npos) return {};
+    std::string_view name = trimBlank(rest.substr(1, end - 1));
+    if (name.ends_with(".chunk")) name.remove_suffix(6);
+    return name;
+}
+
+class Flattener {
+public:
+    Flattener(const EffectAsset& effect, ChunkLibrary& chunks, const FlattenLimits& limits, Problems& problems)
+        : effect_(effect), chunks_(chunks), limits_(limits), problems_(problems) {}
+
+    Flattened run(const std::string& program, const SourceLoc& where) {
+        const auto found = chunks_.find(effect_, program, std::filesystem::path(effect_.path).parent_path());
+        if (found.source == nullptr) {
+            problems_.error(where, fmt::format("no program or chunk '{}'", program), found.help);
+            return std::move(out_);
+        }
+        const MacroTable table(
+            *found.source,
+            [&](const SourceText& from, std::string_view rest) -> const SourceText* {
+                const std::string_view name = includedName(rest);
+                return name.empty() ? nullptr : chunks_.find(effect_, std::string(name), from.folder).source;
+            },
+            limits_.maxIncludes);
+        table_ = &table;
+        out_.flat.text.reserve(1u << 16);
+        emit(*found.source);
+        return std::move(out_);
+    }
+
+private:
+    void emit(const SourceText& source) {
+        seen_.insert(&source);
+        stack_.push_back(&source);
+        const std::uint32_t outer = file_;
+        file_ = fileIndex(source.file);
+        const SourceLines lines{source, file_};
+        for (std::size_t at = 0; at < source.lines.size() && !stopped_;) at = emitLine(lines, at);
+        file_ = outer;
+        stack_.pop_back();
+    }
+
+    std::size_t emitLine(const SourceLines& lines, std::size_t at) {
+        const SourceLine& line = lines.source.lines[at];
+        if (line.kind == LineKind::Code) {
+            if (table_->findCall(line.text, 0) == std::string_view::npos) {
+                push(line.text, lines.origin(at));
+                return at + 1;
+            }
+            Pending pending;
+            const std::size_t used = expandLine(lines, at, pending);
+            flush(pending);
+            return at + used;
+        }
+        const std::size_t next = at + line.span;
+        if (line.macro >= 0) {
+            emitDefinition(lines, at, lines.source.macros[static_cast<std::size_t>(line.macro)]);
+        } else if (line.span > 1) {
+            std::string joined;
+            for (std::size_t i = at; i < next; ++i) {
+                std::string_view part = lines.text(i);
+                if (const auto last = part.rfind('\\'); i + 1 < next || part.ends_with('\\'))
+                    part = part.substr(0, last);
+                joined.append(part).push_back(' ');
+            }
+            emitDirective(joined, lines.origin(at), lines.source);
+        } else {
+            emitDirective(line.text, lines.origin(at), lines.source);
+        }
+        return next;
+    }
+
+    /// A preprocessor line in one piece: of a text, or of a macro's body.
+    void emitDirective(std::string_view text, Origin origin, const SourceText& source) {
+        const Directive directive = readDirective(text);
+        if (directive.kind == LineKind::Include) {
+            include(directive.rest, text, origin, source);
+        } else if (directive.kind == LineKind::Pragma) {
+            pragma(directive.rest, text, origin);
+        } else if (directive.kind != LineKind::Dropped) {
+            FlatDirective note{directive.kind, lineCount(), out_.flat.text.size(), text.size(), nullptr,
+                               nullptr,        origin};
+            push(text, origin);
+            if (isConditional(directive.kind) || directive.kind == LineKind::Define) out_.directives.push_back(note);
+        }
+    }
+
+    void emitDefinition(const SourceLines& lines, std::size_t at, const MacroDefinition& macro) {
+        const SourceLine& line = lines.source.lines[at];
+        const Origin origin = lines.origin(at);
+        FlatDirective note{line.kind, lineCount(), out_.flat.text.size(), 0, &macro, nullptr, origin};
+        const bool expanded = table_->isExpanded(macro.name);
+        if (expanded && !macro.dead) latest_[macro.name] = &macro;
+        out_.directives.push_back(note);
+        if (macro.fromPragma) return;  // Hoisted by the analysis.
+        if (expanded) return push(fmt::format("#define {0} {0}", macro.name), origin);
+        for (std::size_t i = at; i < at + line.span; ++i) {
+            if (macro.adoptsNextLine && i == at)
+                push(std::string(lines.text(i)) + " \\", lines.origin(i));
+            else
+                push(lines.text(i), lines.origin(i));
+        }
+    }
+
+    void include(std::string_view rest, std::string_view line, Origin origin, const SourceText& source) {
+        const std::string_view name = includedName(rest);
+        if (name.empty())
+            return problems_.error(place(line, origin), "malformed #include", "write #include <chunk-name>");
+        if (++includes_ > limits_.maxIncludes)
+            return stop(line, origin, fmt::format("a stage has more than {} includes", limits_.maxIncludes));
+        const auto found = chunks_.find(effect_, std::string(name), source.folder);
+        if (found.source == nullptr)
+            return problems_.error(place(line, origin), fmt::format("no chunk or program '{}' to include", name),
+                                   found.help);
+        if (reportCycle(*found.source, line, origin) || seen_.contains(found.source)) return;
+        if (stack_.size() >= limits_.maxDepth)
+            return stop(line, origin, fmt::format("includes are nested deeper than {}", limits_.maxDepth));
+        emit(*found.source);
+    }
+
+    /// A chunk that includes itself vanishes like any second include, but it is a mistake; the engine's are let pass.
+    bool reportCycle(const SourceText& target, std::string_view line, Origin origin) {
+        const auto first = std::find(stack_.begin(), stack_.end(), &target);
+        if (first == stack_.end()) return false;
+        if (chunks_.isOfEngine(*stack_.back())) return true;
+        std::string chain;
+        for (auto it = first; it != stack_.end(); ++it) chain += (*it)->shown + " -> ";
+        problems_.error(place(line, origin), fmt::format("include cycle: {}{}", chain, target.shown),
+                        "move what both need into a third chunk");
+        return true;
+    }
+
+    void pragma(std::string_view rest, std::string_view line, Origin origin) {
+        Pragma read = readPragma(rest);
+        if (!read.mistake.empty())
+            problems_.error(place(line, origin), read.mistake,
+                            "write such as: #pragma define-meta NAME range([0, 3]) | options([a, b]) default(a)");
+        if (!read.extension.empty() &&
+            std::find(out_.extensions.begin(), out_.extensions.end(), read.extension) == out_.extensions.end())
+            out_.extensions.push_back(std::move(read.extension));
+        if (read.meta) {
+            out_.metas.push_back(std::make_unique<DefineInfo>(std::move(*read.meta)));
+            out_.metas.back()->where = place(line, origin);
+            out_.directives.push_back({LineKind::Pragma, lineCount(), 0, 0, nullptr, out_.metas.back().get(), origin});
+        }
+        if (!read.mark) return;
+        read.mark->line = static_cast<int>(lineCount()) + 1;
+        out_.marks.push_back(std::move(*read.mark));
+        push(read.declaration, origin);
+    }
+
+    /// A line of output that is being put together.
+    struct Pending {
+        std::string text;
+        Origin origin{};
+    };
+
+    /// Expands the calls of line `at`, whose arguments may reach over the next ones. Returns the number of lines used.
+    template <class Lines>
+    std::size_t expandLine(const Lines& lines, std::size_t at, Pending& pending) {
+        std::size_t used = 1, from = 0;
+        std::string_view text = lines.text(at);
+        const auto keep = [&](std::size_t end) {
+            if (trimBlank(pending.text).empty()) pending.origin = lines.origin(at + used - 1);
+            pending.text.append(text.substr(from, end - from));
+            from = end;
+        };
+        while (!stopped_) {
+            std::size_t call = table_->findCall(text, from);
+            if (call == std::string_view::npos) break;
+            const std::string_view name = leadingName(text.substr(call));
+            const MacroDefinition* macro = latest_.contains(name) ? latest_[name] : table_->find(name);
+            const bool active = macro == nullptr || std::find(active_.begin(), active_.end(), name) != active_.end();
+            keep(call);
+            const Origin origin = lines.origin(at + used - 1);
+            CallArguments arguments;
+            if (!active && macro->functionLike)
+                arguments = readArguments(lines, at + used - 1, call + name.size(), limits_.maxArgument);
+            if (active || (macro->functionLike && !arguments.found)) {
+                if (arguments.unclosed)
+                    problems_.error(place(text, origin), fmt::format("the call of macro '{}' is not closed", name),
+                                    "a ')' is missing");
+                keep(call + name.size());
+                continue;
+            }
+            from = call + name.size();
+            if (macro->functionLike) {
+                used = arguments.line - at + 1;
+                text = lines.text(arguments.line);
+                from = arguments.end;
+                if (!matchArguments(*macro, arguments.values)) {
+                    problems_.error(place(lines.text(at), origin),
+                                    fmt::format("macro '{}' takes {} arguments, {} are given", name,
+                                                macro->parameters.size(), arguments.values.size()),
+                                    "give each parameter one");
+                    continue;
+                }
+            }
+            if (expand(*macro, arguments.values, origin, pending)) {
+                from = std::min(text.find_first_not_of(" \t", from), text.size());
+                if (from < text.size() && text[from] == ';') ++from;  // It ended a call that is no statement now.
+            }
+        }
+        keep(text.size());
+        return used;
+    }
+
+    /// Writes a macro's body. True when its last line was a preprocessor line.
+    bool expand(const MacroDefinition& macro, const std::vector<std::string>& arguments, Origin call,
+                Pending& pending) {
+        bool endsInDirective = false;
+        if (++expansions_ > limits_.maxExpansions || active_.size() >= limits_.maxDepth) {
+            stop(macro.name, call, fmt::format("macro '{}' expands without end", macro.name));
+            return false;
+        }
+        active_.push_back(macro.name);
+        const bool outermost = !expandedFrom_;
+        if (outermost) expandedFrom_ = call;
+        const std::uint32_t file = fileIndex(macro.source->file);
+        const bool single = macro.body.size() == 1 && !macro.bearsDirectives;
+        BodyLines lines;
+        for (const auto& part : macro.body) {
+            lines.texts.push_back(substitute(part.text, macro.parameters, arguments));
+            lines.origins.push_back(single ? call : Origin{file, part.line});
+            written_ += lines.texts.back().size();
+        }
+        if (written_ > limits_.maxBytes)
+            stop(macro.name, call, fmt::format("macro '{}' expands without end", macro.name));
+        for (std::size_t i = 0; i < lines.texts.size() && !stopped_;) {
+            endsInDirective = readDirective(lines.texts[i]).kind != LineKind::Code;
+            if (!single) flush(pending);
+            if (endsInDirective)
+                emitDirective(lines.texts[i], lines.origins[i], *macro.source);
+            else if (trimBlank(pending.text).empty())
+                pending.origin = lines.origins[i];
+            i += endsInDirective ? 1 : expandLine(lines, i, pending);
+        }
+        if (!single) flush(pending);
+        if (outermost) expandedFrom_.reset();
+        active_.pop_back();
+        return endsInDirective;
+    }
+
+    void flush(Pending& pending) {
+        if (!trimBlank(pending.text).empty()) push(pending.text, pending.origin);
+        pending.text.clear();
+    }
+
+    void push(std::string_view line, Origin origin) {
+        if (expandedFrom_ && (origin.file != expandedFrom_->file || origin.line != expandedFrom_->line))
+            out_.flat.calls.emplace(static_cast<int>(lineCount()) + 1, *expandedFrom_);
+        out_.flat.text.append(line).push_back('\n');
+        out_.flat.lines.push_back(origin);
+        if (out_.flat.text.size() > limits_.maxBytes)
+            stop(line, origin, fmt::format("the flattened stage is larger than {} MB", limits_.maxBytes >> 20));
+    }
+
+    void stop(std::string_view line, Origin origin, std::string message) {
+        if (stopped_) return;
+        stopped_ = true;
+        problems_.error(place(line, origin), std::move(message), "includes or macros grow without end");
+    }
+
+    SourceLoc place(std::string_view line, Origin origin) const {
+        const auto begin = std::min(line.find_first_not_of(" \t"), line.size());
+        return {out_.flat.files[origin.file], origin.line, static_cast<int>(begin) + 1,
+                static_cast<int>(std::max<std::size_t>(1, std::min<std::size_t>(200, trimBlank(line).size())))};
+    }
+
+    std::uint32_t lineCount() const { return static_cast<std::uint32_t>(out_.flat.lines.size()); }
+
+    std::uint32_t fileIndex(const std::string& file) {
+        const auto [it, isNew] = fileIndices_.try_emplace(file, static_cast<std::uint32_t>(out_.flat.files.size()));
+        if (isNew) out_.flat.files.push_back(file);
+        return it->second;
+    }
+
+    const EffectAsset& effect_;
+    ChunkLibrary& chunks_;
+    const FlattenLimits& limits_;
+    Problems& problems_;
+    const MacroTable* table_ = nullptr;
+    Flattened out_;
+    std::unordered_map<std::string, std::uint32_t> fileIndices_;
+    std::unordered_map<std::string_view, const MacroDefinition*> latest_;  ///< As the text has defined them so far.
+    std::unordered_set<const SourceText*> seen_;
+    std::vector<const SourceText*> stack_;
+    std::vector<std::string_view> active_;  ///< Macros being expanded: they are not expanded within themselves.
+    std::optional<Origin> expandedFrom_;    ///< The author's call that writes the present lines.
+    std::size_t includes_ = 0, expansions_ = 0, written_ = 0;
+    std::uint32_t file_ = 0;
+    bool stopped_ = false;
+};
+
+}  // namespace
+
+Flattened flattenStage(const EffectAsset& effect, const std::string& program, const SourceLoc& where,
+                       ChunkLibrary& chunks, const FlattenLimits& limits, Problems& problems) {
+    return Flattener(effect, chunks, limits, problems).run(program, where);
+}
+
+}  // namespace crevice::cocos

@@ -1,0 +1,87 @@
+// The parts of a macro's call: its arguments over several lines, its body with the arguments put in.
+#pragma once
+
+#include <algorithm>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "cocos/SourceText.h"
+#include "effect/Includes.h"
+
+namespace crevice::cocos {
+
+/// The lines of a program or chunk.
+struct SourceLines {
+    const SourceText& source;
+    std::uint32_t file = 0;
+    std::size_t size() const { return source.lines.size(); }
+    std::string_view text(std::size_t i) const { return source.lines[i].text; }
+    FlatSource::Origin origin(std::size_t i) const { return {file, source.lines[i].line}; }
+};
+
+/// The lines of a macro's body with its arguments.
+struct BodyLines {
+    std::vector<std::string> texts;
+    std::vector<FlatSource::Origin> origins;
+    std::size_t size() const { return texts.size(); }
+    std::string_view text(std::size_t i) const { return texts[i]; }
+    FlatSource::Origin origin(std::size_t i) const { return origins[i]; }
+};
+
+struct CallArguments {
+    bool found = false;     ///< A '(' follows the name, and its ')' was found.
+    bool unclosed = false;  ///< A '(' follows, but no ')' before a preprocessor line, the end, or the limit.
+    std::vector<std::string> values;
+    std::size_t line = 0, end = 0;  ///< Behind the ')'.
+};
+
+/// Splits what stands between the brackets at commas outside of inner brackets, one character at a time.
+class ArgumentReader {
+public:
+    /// True while the call is open.
+    bool read(std::string_view text, std::size_t& at);
+    bool isOpen() const { return depth_ > 0; }
+    std::size_t bytes() const { return bytes_; }
+    std::vector<std::string> take();
+
+private:
+    std::vector<std::string> values_{std::string()};
+    int depth_ = 0;
+    std::size_t bytes_ = 0;
+};
+
+/// Arguments behind a macro's name, which ends at column `at` of line `line`.
+template <class Lines>
+CallArguments readArguments(const Lines& lines, std::size_t line, std::size_t at, std::size_t maxBytes) {
+    CallArguments result;
+    ArgumentReader reader;
+    for (; line < lines.size(); ++line, at = 0) {
+        const std::string_view text = lines.text(line);
+        if (at == 0 && readDirective(text).kind != LineKind::Code) break;
+        if (!reader.isOpen()) {
+            at = std::min(text.find_first_not_of(" \t", at), text.size());
+            if (at == text.size()) continue;
+            if (text[at] != '(') return result;
+        }
+        if (!reader.read(text, at)) {
+            result.found = true;
+            result.values = reader.take();
+            result.line = line;
+            result.end = at;
+            return result;
+        }
+        if (reader.bytes() > maxBytes) break;
+    }
+    result.unclosed = reader.isOpen();
+    return result;
+}
+
+/// Fits the number of arguments: `f()` gives a macro without parameters none. False when they do not fit.
+bool matchArguments(const MacroDefinition& macro, std::vector<std::string>& arguments);
+
+/// Parameters replaced by arguments, `##` pasted.
+std::string substitute(std::string_view body, const std::vector<std::string_view>& parameters,
+                       const std::vector<std::string>& arguments);
+
+}  // namespace crevice::cocos

@@ -1,0 +1,43 @@
+// Which macros of a stage must be expanded in its text, before GLSL's own preprocessor sees it.
+#pragma once
+
+#include <array>
+#include <functional>
+#include <string_view>
+#include <unordered_map>
+#include <unordered_set>
+#include <vector>
+
+#include "cocos/SourceText.h"
+
+namespace crevice::cocos {
+
+/// All macros of the texts that a program includes, wherever they stand: `#pragma define` holds for the whole stage.
+/// Expanded are those whose body bears preprocessor lines or interface declarations, and those that call such a one.
+class MacroTable {
+public:
+    /// What an #include in `from` means; null = nothing, somebody else reports it.
+    using Resolve = std::function<const SourceText*(const SourceText& from, std::string_view rest)>;
+
+    /// At most `maxSources` texts are looked at.
+    MacroTable(const SourceText& program, const Resolve& resolve, std::size_t maxSources);
+
+    bool isExpanded(std::string_view name) const { return expanded_.contains(name); }
+    /// The first definition in the order of the texts.
+    const MacroDefinition* find(std::string_view name) const;
+    /// Where the next name to be expanded stands in a line of code, from `from` on; npos = nowhere.
+    std::size_t findCall(std::string_view text, std::size_t from) const;
+
+private:
+    void visit(const SourceText& source, const Resolve& resolve, std::size_t maxSources);
+    void chooseExpanded();
+    void expand(std::string_view name);
+
+    std::vector<const MacroDefinition*> all_;
+    std::unordered_set<const SourceText*> seen_;
+    std::unordered_map<std::string_view, const MacroDefinition*> first_;
+    std::unordered_set<std::string_view> expanded_;
+    std::array<bool, 128> firstLetters_{};  ///< Of the expanded names: most words are passed over by one look.
+};
+
+}  // namespace crevice::cocos

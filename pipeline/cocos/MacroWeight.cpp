@@ -1,0 +1,184 @@
+// Sizes of macros as linear functions of their arguments.
+#include "cocos/MacroWeight.h"
+
+#include <algorithm>
+
+namespace crevice::cocos {
+namespace {
+
+constexpr double kHuge = 1e30;
+constexpr double kHeavy = 100;  ///< Words: lighter macros cannot add up before the text itself is too large.
+constexpr int kMaxDepth = 100;  ///< Nesting of calls, and of macros in macros.
+
+}  // namespace
+
+/// Moves over a text word by word and knows the macros' calls.
+struct MacroWeights::Scanner {
+    MacroWeights& weights;
+    std::string_view text;
+    const std::vector<std::string_view>& parameters;
+    std::size_t at = 0;
+
+    Linear zero() const { return {0, std::vector<double>(parameters.size(), 0.0)}; }
+
+    static void add(Linear& sum, const Linear& part, double factor) {
+        if (factor == 0) return;
+        sum.constant = std::min(kHuge, sum.constant + factor * part.constant);
+        for (std::size_t i = 0; i < part.factors.size() && i < sum.factors.size(); ++i)
+            sum.factors[i] = std::min(kHuge, sum.factors[i] + factor * part.factors[i]);
+    }
+
+    /// Up to the end, or in a call to the next ',' or ')' of its own.
+    Linear sum(bool inCall) {
+        Linear total = zero();
+        int open = 0;
+        while (at < text.size()) {
+            const char c = text[at];
+            if (isNameStart(c)) {
+                add(total, word(), 1);
+                continue;
+            }
+            if (inCall && open == 0 && (c == ',' || c == ')')) break;
+            if (c == '(') ++open;
+            if (c == ')' && open > 0) --open;
+            if (c == ' ' || c == '\t' || c == '\n') {
+                ++at;
+                continue;
+            }
+            total.constant += 1;
+            ++at;
+            while (isNamePart(c) && at < text.size() && (isNamePart(text[at]) || text[at] == '.')) ++at;
+        }
+        return total;
+    }
+
+    Linear word() {
+        const std::string_view name = leadingName(text.substr(at));
+        at += name.size();
+        Linear total = zero();
+        const auto parameter = std::find(parameters.begin(), parameters.end(), name);
+        if (parameter != parameters.end()) {
+            total.factors[static_cast<std::size_t>(parameter - parameters.begin())] = 1;
+            return total;
+        }
+        total.constant = 1;
+        Entry* entry = weights.find(name);
+        if (entry == nullptr || entry->busy) return total;
+        if (!entry->functionLike) {
+            add(total, {weights.weightOf(*entry).constant, {}}, 1);
+            return total;
+        }
+        const std::size_t bracket = std::min(text.find_first_not_of(" \t\n", at), text.size());
+        if (bracket == text.size() || text[bracket] != '(') return total;
+        at = bracket + 1;
+        call(*entry, total);
+        return total;
+    }
+
+    void call(Entry& entry, Linear& total) {
+        const Linear weight = weights.weightOf(entry);
+        total.constant = std::min(kHuge, total.constant + weight.constant);
+        if (++weights.depth_ > kMaxDepth) total.constant = kHuge;
+        for (std::size_t i = 0; at < text.size() && weights.depth_ <= kMaxDepth; ++i) {
+            const Linear argument = sum(true);
+            add(total, argument, i < weight.factors.size() ? weight.factors[i] : 0);
+            const bool ends = at >= text.size() || text[at] == ')';
+            if (at < text.size()) ++at;
+            if (ends) break;
+        }
+        --weights.depth_;
+    }
+};
+
+void MacroWeights::add(const MacroDefinition& macro) {
+    Entry& entry = entries_[macro.name];
+    entry.definitions.push_back(&macro);
+    entry.functionLike = entry.functionLike || macro.functionLike;
+}
+
+/// Follows `#define F G` to G: a call of F is one of G.
+MacroWeights::Entry* MacroWeights::find(std::string_view name) {
+    for (int i = 0; i < 16; ++i) {
+        const auto it = entries_.find(name);
+        if (it == entries_.end()) return nullptr;
+        const auto& definitions = it->second.definitions;
+        if (it->second.functionLike || definitions.size() != 1 || definitions[0]->body.size() != 1) return &it->second;
+        const std::string_view body = trimBlank(definitions[0]->body[0].text);
+        if (body.empty() || leadingName(body) != body || !entries_.contains(body)) return &it->second;
+        name = body;
+    }
+    return nullptr;
+}
+
+const MacroWeights::Linear& MacroWeights::weightOf(Entry& entry) {
+    if (entry.known) return entry.weight;
+    entry.busy = true;
+    if (++depth_ > kMaxDepth) entry.weight.constant = kHuge;
+    for (const MacroDefinition* macro : entry.definitions) {
+        if (depth_ > kMaxDepth) break;
+        Linear total{0, std::vector<double>(macro->parameters.size(), 0.0)};
+        for (const auto& part : macro->body) Scanner::add(total, measure(part.text, macro->parameters), 1);
+        entry.weight.constant = std::max(entry.weight.constant, total.constant);
+        entry.weight.factors.resize(std::max(entry.weight.factors.size(), total.factors.size()), 0.0);
+        for (std::size_t i = 0; i < total.factors.size(); ++i)
+            entry.weight.factors[i] = std::max(entry.weight.factors[i], total.factors[i]);
+    }
+    --depth_;
+    entry.busy = false;
+    entry.known = true;
+    return entry.weight;
+}
+
+MacroWeights::Linear MacroWeights::measure(std::string_view text, const std::vector<std::string_view>& parameters) {
+    return Scanner{*this, text, parameters}.sum(false);
+}
+
+int MacroWeights::firstTooHeavy(std::string_view text, std::string_view& macro) {
+    std::unordered_map<std::string_view, Entry*> heavy;
+    bool letters[128] = {};
+    for (auto& [name, entry] : entries_) {
+        const Linear& weight = weightOf(entry);
+        const bool multiplies =
+            std::any_of(weight.factors.begin(), weight.factors.end(), [](double factor) { return factor > 1; });
+        if (!multiplies && weight.constant < kHeavy) continue;
+        heavy.emplace(name, &entry);
+        letters[static_cast<unsigned char>(name.front()) & 127u] = true;
+    }
+    if (heavy.empty()) return 0;
+    const std::vector<std::string_view> none;
+    Scanner scanner{*this, text, none};
+    double total = 0;
+    bool lineStart = true;
+    while (scanner.at < text.size()) {
+        const char c = text[scanner.at];
+        if (lineStart && c == '#' && readDirective(text.substr(scanner.at, 64)).kind == LineKind::Define) {
+            // A definition, continued or not, is not expanded where it stands.
+            std::size_t end = text.find('\n', scanner.at);
+            while (end != std::string_view::npos && end > 0 && text[end - 1] == '\\') end = text.find('\n', end + 1);
+            scanner.at = std::min(end, text.size());
+            continue;
+        }
+        if (!isNamePart(c)) {
+            lineStart = c == '\n' || (lineStart && (c == ' ' || c == '\t'));
+            ++scanner.at;
+            continue;
+        }
+        lineStart = false;
+        std::size_t end = scanner.at + 1;
+        while (end < text.size() && isNamePart(text[end])) ++end;
+        const std::string_view name = text.substr(scanner.at, end - scanner.at);
+        const bool candidate = letters[static_cast<unsigned char>(c) & 127u] && heavy.contains(name);
+        if (!candidate) {
+            scanner.at = end;
+            continue;
+        }
+        const std::size_t begin = scanner.at;
+        total += scanner.word().constant;
+        if (total <= kMaxWords) continue;
+        macro = name;
+        return static_cast<int>(std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(begin), '\n')) + 1;
+    }
+    return 0;
+}
+
+}  // namespace crevice::cocos

@@ -1,0 +1,48 @@
+// How many words macros stand for, without expanding them: what would make the compiler's preprocessor run out of
+// memory is refused before it starts.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <unordered_map>
+#include <vector>
+
+#include "cocos/SourceText.h"
+
+namespace crevice::cocos {
+
+/// The size of a call grows linearly with the sizes of its arguments: constant + sum of factor × argument. So the size
+/// of any nesting follows without writing it out.
+class MacroWeights {
+public:
+    /// That one call, or all calls of a stage's text together, may stand for.
+    static constexpr int kMaxWords = 2'000'000;
+
+    /// Of several definitions of a name the heaviest counts.
+    void add(const MacroDefinition& macro);
+
+    /// The line of `text`, counted from 1, on which the limit is passed; 0 = nowhere.
+    int firstTooHeavy(std::string_view text, std::string_view& macro);
+
+private:
+    struct Linear {
+        double constant = 0;
+        std::vector<double> factors;
+    };
+    struct Entry {
+        std::vector<const MacroDefinition*> definitions;
+        Linear weight;
+        bool known = false, busy = false, functionLike = false;
+    };
+    /// Reads a text of words and brackets; see the source.
+    struct Scanner;
+
+    const Linear& weightOf(Entry& entry);
+    Entry* find(std::string_view name);
+    Linear measure(std::string_view text, const std::vector<std::string_view>& parameters);
+
+    std::unordered_map<std::string_view, Entry> entries_;
+    int depth_ = 0;
+};
+
+}  // namespace crevice::cocos

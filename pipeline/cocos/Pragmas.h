@@ -1,0 +1,24 @@
+// What the pragmas of Cocos' dialects say.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "cocos/StageText.h"
+
+namespace crevice::cocos {
+
+/// One pragma taken apart. At most one of the members is set; a pragma that says nothing here sets none.
+struct Pragma {
+    std::optional<DefineInfo> meta;  ///< define-meta, and `define` with a describing tail.
+    std::optional<PragmaMark> mark;  ///< Without line.
+    std::string extension;           ///< "#extension NAME : level", for version 450.
+    std::string declaration;         ///< GLSL that stands for it: subpass inputs.
+    std::string mistake;             ///< What is wrong with it.
+};
+
+/// `rest` is what follows `#pragma`.
+Pragma readPragma(std::string_view rest);
+
+}  // namespace crevice::cocos

@@ -1,0 +1,92 @@
+// A program or chunk as the flattener wants it: comments blanked, split into lines, its macros taken apart. Read once,
+// used by every stage that includes it.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace crevice::cocos {
+
+enum class LineKind : std::uint8_t {
+    Code,
+    Include,
+    Define,
+    Undef,
+    If,
+    Ifdef,
+    Ifndef,
+    Elif,
+    Else,
+    Endif,
+    Pragma,
+    PragmaDefine,
+    Dropped,  ///< #version and #line: ours alone.
+    Other     ///< #extension, #error
+};
+
+/// True for #if, #ifdef, #ifndef, #elif, #else, #endif.
+bool isConditional(LineKind kind);
+
+/// A preprocessor line's kind and what follows its word; Code when `text` is none.
+struct Directive {
+    LineKind kind = LineKind::Code;
+    std::string_view rest;  ///< Trimmed, to the end of the line, without a continuation's backslash.
+};
+Directive readDirective(std::string_view text);
+
+struct SourceLine {
+    std::string_view text;  ///< Without the line end.
+    int line = 1;           ///< Of the file.
+    LineKind kind = LineKind::Code;
+    std::uint32_t span = 1;  ///< A directive with its continuation lines, which are the next entries.
+    int macro = -1;          ///< Define, PragmaDefine: index into `macros`.
+};
+
+struct MacroDefinition {
+    struct BodyLine {
+        std::string_view text;
+        int line = 1;  ///< Of the file.
+    };
+    std::string_view name;
+    bool functionLike = false;
+    bool fromPragma = false;
+    bool bearsDirectives = false;  ///< A line of the body is a preprocessor line: GLSL's own preprocessor has no such.
+    bool declares = false;         ///< The body begins or holds a declaration with in, out, uniform, buffer.
+    bool dead = false;             ///< In a branch that no text of version 450 takes.
+    bool adoptsNextLine = false;   ///< `#define f(x)` and nothing behind it: the next line is the body.
+    std::vector<std::string_view> parameters;
+    std::vector<BodyLine> body;
+    const struct SourceText* source = nullptr;
+};
+
+struct SourceText {
+    std::string shown;  ///< Name in messages.
+    std::string file;
+    std::filesystem::path folder;
+    std::string text;
+    std::vector<SourceLine> lines;  ///< Without blank ones.
+    std::vector<MacroDefinition> macros;
+
+    SourceText() = default;
+    SourceText(const SourceText&) = delete;
+    SourceText& operator=(const SourceText&) = delete;
+};
+
+/// `firstLine` is the line of `file` on which `text` begins.
+std::unique_ptr<SourceText> readSource(std::string_view text, const std::string& shown, const std::string& file,
+                                       const std::filesystem::path& folder, int firstLine);
+
+std::string_view trimBlank(std::string_view text);
+/// The name at the front of a text, or nothing.
+std::string_view leadingName(std::string_view text);
+inline bool isNameStart(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; }
+inline bool isNamePart(char c) { return isNameStart(c) || (c >= '0' && c <= '9'); }
+
+/// Behind a macro's name, does the tail make `#pragma define` a description (Cocos up to 3.4) instead of a macro?
+bool isMetaTail(std::string_view tail);
+
+}  // namespace crevice::cocos

@@ -1,0 +1,342 @@
+// Follows the conditions of a flattened stage from top to bottom.
+#include "cocos/StageAnalysis.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <unordered_map>
+#include <unordered_set>
+
+#include "cocos/Conditions.h"
+#include "cocos/EngineMacros.h"
+#include "cocos/MacroWeight.h"
+
+namespace crevice::cocos {
+namespace {
+
+constexpr int kMaxAliasDepth = 16;
+
+/// The body in one line.
+std::string joinBody(const MacroDefinition& macro) {
+    std::string body;
+    for (const auto& part : macro.body) {
+        if (!body.empty()) body += ' ';
+        body += trimBlank(part.text);
+    }
+    return body;
+}
+
+std::string defineLine(const MacroDefinition& macro) {
+    std::string line = fmt::format("#define {}", macro.name);
+    for (std::size_t i = 0; macro.functionLike && i <= macro.parameters.size(); ++i) {
+        if (i == macro.parameters.size())
+            line += i == 0 ? "()" : ")";
+        else
+            line += fmt::format("{}{}", i == 0 ? "(" : ", ", macro.parameters[i]);
+    }
+    return line + " " + joinBody(macro);
+}
+
+class Analysis {
+public:
+    Analysis(StageText& out, std::vector<FlatDirective> directives, Problems& problems)
+        : out_(out), directives_(std::move(directives)), problems_(problems) {}
+
+    void run() {
+        collectDefinitions();
+        out_.conditionOf.assign(out_.flat.lines.size(), 0);
+        for (const FlatDirective& directive : directives_) read(directive);
+        fillTo(out_.flat.lines.size());
+        checkWeights();
+        listDefined();
+        hoist();
+    }
+
+private:
+    /// One #if with its branches so far.
+    struct Frame {
+        std::vector<std::string> outer;             ///< Needs of the enclosing conditions.
+        std::vector<std::string> earlier, current;  ///< That earlier branches were not taken; that this one is.
+        std::vector<std::string> negated;           ///< That this one is not.
+        std::vector<std::string> raw;               ///< The same as expressions; the last one is the present branch.
+    };
+    struct Hoisted {
+        const MacroDefinition* macro = nullptr;
+        FlatSource::Origin origin{};
+        std::vector<std::string> raw;  ///< Conditions around it.
+    };
+
+    void collectDefinitions() {
+        for (const FlatDirective& directive : directives_) {
+            if (directive.kind != LineKind::Define && directive.kind != LineKind::PragmaDefine) continue;
+            if (directive.macro != nullptr) {
+                if (!directive.macro->dead) definitions_[directive.macro->name].push_back(directive.macro);
+                if (directive.kind == LineKind::Define) inText_.insert(directive.macro->name);
+            } else {
+                inText_.insert(leadingName(readDirective(textOf(directive)).rest));
+            }
+        }
+    }
+
+    std::string_view textOf(const FlatDirective& directive) const {
+        return std::string_view(out_.flat.text).substr(directive.offset, directive.length);
+    }
+
+    void read(const FlatDirective& directive) {
+        if (directive.kind == LineKind::Pragma) return describe(*directive.meta);
+        if (directive.kind == LineKind::PragmaDefine) {
+            if (directive.macro->dead || directive.macro->bearsDirectives) return;
+            Hoisted hoisted{directive.macro, directive.origin, {}};
+            for (const Frame& frame : frames_)
+                hoisted.raw.insert(hoisted.raw.end(), frame.raw.begin(), frame.raw.end());
+            hoisted_.push_back(std::move(hoisted));
+        }
+        if (!isConditional(directive.kind)) return;
+        fillTo(directive.line);
+        const Directive line = readDirective(textOf(directive));
+        place_ = &directive;
+        if (line.kind == LineKind::Endif) {
+            if (!frames_.empty()) frames_.pop_back();
+        } else if (line.kind == LineKind::Else || line.kind == LineKind::Elif) {
+            if (!frames_.empty()) readBranch(line);
+        } else {
+            open(line);
+        }
+        present_ = internNeeds();
+    }
+
+    void open(const Directive& line) {
+        Frame frame;
+        if (!frames_.empty()) frame.outer = needsOf(frames_.back());
+        const Condition condition = evaluate(line);
+        frame.current = condition.needs;
+        frame.negated = condition.negated;
+        frame.raw.push_back(rawOf(line));
+        frames_.push_back(std::move(frame));
+    }
+
+    void readBranch(const Directive& line) {
+        Frame& frame = frames_.back();
+        frame.earlier.insert(frame.earlier.end(), frame.negated.begin(), frame.negated.end());
+        frame.raw.back() = "!(" + frame.raw.back() + ")";
+        frame.current.clear();
+        frame.negated.clear();
+        if (line.kind == LineKind::Else) return;
+        const Condition condition = evaluate(line);
+        frame.current = condition.needs;
+        frame.negated = condition.negated;
+        frame.raw.push_back(rawOf(line));
+    }
+
+    static std::string rawOf(const Directive& line) {
+        if (line.kind == LineKind::Ifdef) return fmt::format("defined({})", leadingName(line.rest));
+        if (line.kind == LineKind::Ifndef) return fmt::format("!defined({})", leadingName(line.rest));
+        return fmt::format("({})", line.rest);
+    }
+
+    Condition evaluate(const Directive& line) {
+        if (line.kind == LineKind::If || line.kind == LineKind::Elif)
+            return readCondition(line.rest, [this](std::string_view name) { return lookUp(name, 0); });
+        const std::string name(leadingName(line.rest));
+        Condition condition;
+        if (name.empty() || !lookUp(name, kMaxAliasDepth).outside) return condition;
+        condition.needs = {name};
+        condition.negated = {"!" + name};
+        return line.kind == LineKind::Ifndef ? negate(condition) : condition;
+    }
+
+    /// A name in a condition. Macros of the text stand for what they are defined as; others are asked of the outside.
+    ConditionName lookUp(std::string_view name, int depth) {
+        ConditionName result;
+        if (name.starts_with("GL_") || name.starts_with("__") || name == "VULKAN") {
+            result.outside = false;
+            return result;
+        }
+        const auto it = definitions_.find(name);
+        if (it == definitions_.end() && !inText_.contains(name)) {
+            mention(name);
+            return result;
+        }
+        result.outside = false;
+        if (it == definitions_.end() || depth >= kMaxAliasDepth) return result;
+        for (const MacroDefinition* macro : it->second) followAlias(*macro, it->second.size() == 1, depth, result);
+        return result;
+    }
+
+    void followAlias(const MacroDefinition& macro, bool only, int depth, ConditionName& result) {
+        if (macro.functionLike || macro.body.empty()) return;
+        const std::string_view body = trimBlank(macro.body.front().text);
+        long long number = 0;
+        const auto [end, error] = std::from_chars(body.data(), body.data() + body.size(), number);
+        if (!body.empty() && error == std::errc{} && end == body.data() + body.size()) {
+            if (only) result.value = number;
+            return;
+        }
+        const auto add = [&](const std::string& alias) {
+            if (std::find(result.alias.begin(), result.alias.end(), alias) == result.alias.end())
+                result.alias.push_back(alias);
+        };
+        for (std::size_t i = 0; i < body.size();) {
+            if (!isNameStart(body[i])) {
+                i += 1;
+                continue;
+            }
+            const std::string_view word = leadingName(body.substr(i));
+            i += word.size();
+            const ConditionName inner = word == "defined" ? ConditionName{{}, false, {}} : lookUp(word, depth + 1);
+            if (inner.outside) add(std::string(word));
+            for (const std::string& alias : inner.alias) add(alias);
+        }
+    }
+
+    DefineInfo* entry(std::string_view name) {
+        const auto [it, isNew] = macroIndex_.try_emplace(std::string(name), out_.macros.size());
+        if (isNew) out_.macros.push_back({{}, frames_.empty() ? std::vector<std::string>{} : needsOf(frames_.back())});
+        DefineInfo& info = out_.macros[it->second].info;
+        info.name = name;
+        return &info;
+    }
+
+    void mention(std::string_view name) {
+        if (engineConstants().contains(name)) return;
+        DefineInfo* info = entry(name);
+        info->tested = true;
+        if (info->where.line == 0 && place_ != nullptr) {
+            const auto column = textOf(*place_).find(name);
+            info->where = {out_.flat.files[place_->origin.file], place_->origin.line, static_cast<int>(column) + 1,
+                           static_cast<int>(name.size())};
+        }
+    }
+
+    /// The first description of a macro holds; those of names that the text defines itself say nothing.
+    void describe(const DefineInfo& meta) {
+        if (definitions_.contains(meta.name) || inText_.contains(meta.name) || engineConstants().contains(meta.name))
+            return;
+        DefineInfo* info = entry(meta.name);
+        if (info->described) return;
+        const bool tested = info->tested;
+        *info = meta;
+        info->tested = tested;
+    }
+
+    static std::vector<std::string> needsOf(const Frame& frame) {
+        std::vector<std::string> needs;
+        for (const auto* part : {&frame.outer, &frame.earlier, &frame.current})
+            for (const std::string& need : *part)
+                if (std::find(needs.begin(), needs.end(), need) == needs.end()) needs.push_back(need);
+        return needs;
+    }
+
+    std::uint32_t internNeeds() {
+        if (frames_.empty()) return 0;
+        auto needs = needsOf(frames_.back());
+        std::string key;
+        for (const std::string& need : needs) key += need + ' ';
+        const auto [it, isNew] =
+            conditionIndex_.try_emplace(std::move(key), static_cast<std::uint32_t>(out_.conditions.size()));
+        if (isNew && needs.empty()) return it->second = 0;
+        if (isNew) out_.conditions.push_back(std::move(needs));
+        return it->second;
+    }
+
+    void fillTo(std::size_t line) {
+        std::fill(out_.conditionOf.begin() + static_cast<std::ptrdiff_t>(filled_),
+                  out_.conditionOf.begin() + static_cast<std::ptrdiff_t>(line), present_);
+        filled_ = line;
+    }
+
+    void listDefined() {
+        for (const std::string_view name : inText_) out_.defined.emplace_back(name);
+        for (const auto& [name, macros] : definitions_) out_.defined.emplace_back(name);
+        std::sort(out_.defined.begin(), out_.defined.end());
+        out_.defined.erase(std::unique(out_.defined.begin(), out_.defined.end()), out_.defined.end());
+    }
+
+    void checkWeights() {
+        MacroWeights weights;
+        for (const auto& [name, macros] : definitions_)
+            for (const MacroDefinition* macro : macros)
+                if (!macro->bearsDirectives) weights.add(*macro);
+        std::string_view heaviest;
+        const int line = weights.firstTooHeavy(out_.flat.text, heaviest);
+        if (line == 0) return;
+        problems_.error(out_.flat.locate(line),
+                        fmt::format("macro '{}' stands for more than {} words here", heaviest, MacroWeights::kMaxWords),
+                        "macros multiply each other: write out what is meant");
+    }
+
+    /// Position does not matter for `#pragma define`: its macros go in front of everything.
+    void hoist() {
+        std::string text;
+        std::vector<FlatSource::Origin> lines;
+        std::unordered_map<std::string_view, std::vector<const Hoisted*>> byName;
+        std::vector<std::string_view> order;
+        for (const Hoisted& hoisted : hoisted_) {
+            auto& same = byName[hoisted.macro->name];
+            if (same.empty()) order.push_back(hoisted.macro->name);
+            same.push_back(&hoisted);
+        }
+        const auto write = [&](const std::string& line, FlatSource::Origin origin) {
+            text += line + "\n";
+            lines.push_back(origin);
+        };
+        for (const std::string_view name : order) {
+            const auto& same = byName[name];
+            const bool equal = std::all_of(same.begin(), same.end(), [&](const Hoisted* other) {
+                return defineLine(*other->macro) == defineLine(*same[0]->macro);
+            });
+            if (equal) {
+                write(defineLine(*same[0]->macro), same[0]->origin);
+                continue;
+            }
+            for (std::size_t i = 0; i < same.size(); ++i) {
+                const auto& raw = same[i]->raw;
+                write(fmt::format("#{} {}", i == 0 ? "if" : "elif",
+                                  raw.empty() ? "1" : fmt::format("{}", fmt::join(raw, " && "))),
+                      same[i]->origin);
+                write(defineLine(*same[i]->macro), same[i]->origin);
+            }
+            write("#endif", same.back()->origin);
+        }
+        prepend(text, lines);
+    }
+
+    void prepend(const std::string& text, const std::vector<FlatSource::Origin>& lines) {
+        const int count = static_cast<int>(lines.size());
+        out_.flat.text.insert(0, text);
+        out_.flat.lines.insert(out_.flat.lines.begin(), lines.begin(), lines.end());
+        out_.conditionOf.insert(out_.conditionOf.begin(), lines.size(), 0);
+        for (PragmaMark& mark : out_.marks) mark.line += count;
+        std::map<int, FlatSource::Origin> calls;
+        for (const auto& [line, origin] : out_.flat.calls) calls.emplace_hint(calls.end(), line + count, origin);
+        out_.flat.calls = std::move(calls);
+    }
+
+    StageText& out_;
+    std::vector<FlatDirective> directives_;
+    Problems& problems_;
+    std::unordered_map<std::string_view, std::vector<const MacroDefinition*>> definitions_;
+    std::unordered_set<std::string_view> inText_;
+    std::unordered_map<std::string, std::size_t> macroIndex_;
+    std::unordered_map<std::string, std::uint32_t> conditionIndex_;
+    std::vector<Frame> frames_;
+    std::vector<Hoisted> hoisted_;
+    const FlatDirective* place_ = nullptr;
+    std::size_t filled_ = 0;
+    std::uint32_t present_ = 0;
+};
+
+}  // namespace
+
+StageText analyzeStage(ShaderStageBits stage, Flattened flattened, Problems& problems) {
+    StageText out;
+    out.stage = stage;
+    out.flat = std::move(flattened.flat);
+    out.marks = std::move(flattened.marks);
+    out.extensions = std::move(flattened.extensions);
+    Analysis(out, std::move(flattened.directives), problems).run();
+    return out;
+}
+
+}  // namespace crevice::cocos

@@ -1,0 +1,15 @@
+// What a flattened stage says about macros: which are asked of the outside, which conditions every line stands under,
+// which definitions hold for the whole stage.
+#pragma once
+
+#include "cocos/Flattener.h"
+#include "cocos/StageText.h"
+
+namespace crevice::cocos {
+
+/// Puts `#pragma define`s in front of the text, as #define lines; a name that is defined differently in several
+/// branches keeps their conditions. Fills macros and conditions. Reports macros that GLSL's preprocessor could not
+/// expand in bounded memory.
+StageText analyzeStage(ShaderStageBits stage, Flattened flattened, Problems& problems);
+
+}  // namespace crevice::cocos
