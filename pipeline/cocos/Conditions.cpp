@@ -54,6 +54,12 @@ void append(std::vector<std::string>& list, const std::vector<std::string>& more
     list.insert(list.end(), more.begin(), more.end());
 }
 
+Condition constant(long long value) {
+    Condition result;
+    result.value = value;
+    return result;
+}
+
 class Reader {
 public:
     Reader(std::string_view text, const NameLookup& lookup) : text_(text), lookup_(lookup) {}
@@ -61,7 +67,8 @@ public:
     Condition run() {
         advance();
         Condition result = readBinary(1);
-        if (failed_ || !word_.empty()) return {};
+        if (failed_ || !word_.empty()) result = {};
+        result.tooDeep = tooDeep_;
         return result;
     }
 
@@ -85,7 +92,7 @@ private:
     }
 
     Condition readBinary(int level) {
-        if (++depth_ > kMaxDepth) failed_ = true;
+        if (++depth_ > kMaxDepth) failed_ = tooDeep_ = true;
         Condition left = failed_ ? Condition{} : readUnary();
         while (!failed_) {
             const std::string_view op = word_;
@@ -115,7 +122,7 @@ private:
         for (const auto* pair : {&a, &b}) {
             if (!pair->value) continue;
             const bool holds = *pair->value != 0;
-            if (holds != both) return {.value = holds ? 1 : 0, .needs = {}, .negated = {}};
+            if (holds != both) return constant(holds ? 1 : 0);
             return pair == &a ? b : a;
         }
         // De Morgan: the opposite of `!a || !b` is simple, and so is that of `a || b`.
@@ -127,7 +134,7 @@ private:
 
     Condition readUnary() {
         if (word_ == "!" || word_ == "-" || word_ == "+" || word_ == "~") {
-            if (++depth_ > kMaxDepth) failed_ = true;
+            if (++depth_ > kMaxDepth) failed_ = tooDeep_ = true;
             const std::string_view op = word_;
             advance();
             Condition operand = failed_ ? Condition{} : readUnary();
@@ -169,7 +176,7 @@ private:
     Condition readName() {
         const std::string_view word = word_;
         advance();
-        if (word == "__VERSION__") return {.value = 450, .needs = {}, .negated = {}};
+        if (word == "__VERSION__") return constant(450);
         if (word_ == "(") skipArguments();
         const ConditionName name = lookup_(word);
         Condition result;
@@ -210,7 +217,7 @@ private:
     std::string_view text_, word_;
     const NameLookup& lookup_;
     int depth_ = 0;
-    bool failed_ = false;
+    bool failed_ = false, tooDeep_ = false;
 };
 
 }  // namespace

@@ -13,6 +13,7 @@ namespace crevice::cocos {
 struct Condition {
     std::optional<long long> value;    ///< When it does not depend on any macro from outside.
     std::vector<std::string> needs;    ///< All of these must hold: "USE_X", "!USE_Y". Only simple names are kept.
+    bool tooDeep = false;              ///< Brackets or signs nest deeper than any author writes.
     std::vector<std::string> negated;  ///< The same for the condition's opposite; empty when nothing simple says it.
 };
 

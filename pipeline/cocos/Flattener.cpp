@@ -182,6 +182,7 @@ private:
     template <class Lines>
     std::size_t expandLine(const Lines& lines, std::size_t at, Pending& pending) {
         std::size_t used = 1, from = 0;
+        endedInDirective_ = false;
         std::string_view text = lines.text(at);
         const auto keep = [&](std::size_t end) {
             if (trimBlank(pending.text).empty()) pending.origin = lines.origin(at + used - 1);
@@ -219,11 +220,13 @@ private:
                     continue;
                 }
             }
-            if (expand(*macro, arguments.values, origin, pending)) {
+            endedInDirective_ = expand(*macro, arguments.values, origin, pending);
+            if (endedInDirective_) {
                 from = std::min(text.find_first_not_of(" \t", from), text.size());
                 if (from < text.size() && text[from] == ';') ++from;  // It ended a call that is no statement now.
             }
         }
+        endedInDirective_ = endedInDirective_ && trimBlank(text.substr(from)).empty();
         keep(text.size());
         return used;
     }
@@ -252,11 +255,13 @@ private:
         for (std::size_t i = 0; i < lines.texts.size() && !stopped_;) {
             endsInDirective = readDirective(lines.texts[i]).kind != LineKind::Code;
             if (!single) flush(pending);
-            if (endsInDirective)
-                emitDirective(lines.texts[i], lines.origins[i], *macro.source);
-            else if (trimBlank(pending.text).empty())
-                pending.origin = lines.origins[i];
-            i += endsInDirective ? 1 : expandLine(lines, i, pending);
+            if (endsInDirective) emitDirective(lines.texts[i], lines.origins[i], *macro.source);
+            if (endsInDirective) {
+                ++i;
+                continue;
+            }
+            i += expandLine(lines, i, pending);
+            endsInDirective = endedInDirective_;
         }
         if (!single) flush(pending);
         if (outermost) expandedFrom_.reset();
@@ -312,6 +317,7 @@ private:
     std::optional<Origin> expandedFrom_;    ///< The author's call that writes the present lines.
     std::size_t includes_ = 0, expansions_ = 0, written_ = 0;
     std::uint32_t file_ = 0;
+    bool endedInDirective_ = false;  ///< What the line expanded last ended in.
     bool stopped_ = false;
 };
 

@@ -136,8 +136,13 @@ private:
     }
 
     Condition evaluate(const Directive& line) {
-        if (line.kind == LineKind::If || line.kind == LineKind::Elif)
-            return readCondition(line.rest, [this](std::string_view name) { return lookUp(name, 0); });
+        if (line.kind == LineKind::If || line.kind == LineKind::Elif) {
+            Condition condition = readCondition(line.rest, [this](std::string_view name) { return lookUp(name, 0); });
+            if (condition.tooDeep)
+                problems_.error({out_.flat.files[place_->origin.file], place_->origin.line},
+                                "the condition nests brackets deeper than 200", "write it with fewer brackets");
+            return condition;
+        }
         const std::string name(leadingName(line.rest));
         Condition condition;
         if (name.empty() || !lookUp(name, kMaxAliasDepth).outside) return condition;

@@ -179,9 +179,18 @@ Problem describe(const Message& message, const StageSource& source, int line) {
     return problem;
 }
 
+/// For a line that a macro wrote: where the author called it.
+std::vector<Remark> callOf(const StageSource& source, int line) {
+    const auto call = source.flat.calls.find(line);
+    if (call == source.flat.calls.end()) return {};
+    const SourceLoc where{source.flat.files[call->second.file], call->second.line};
+    return {{where, "written by the macro called here"}};
+}
+
 /// Remarks that only say that an error was said before.
 bool isSummary(const Message& message) {
-    return contains(message.text, "compilation terminated") || contains(message.text, "compilation errors");
+    return contains(message.text, "compilation terminated") || contains(message.text, "compilation errors") ||
+           message.text == "missing #endif";
 }
 
 }  // namespace
@@ -199,7 +208,7 @@ void reportGlslMessages(std::string_view log, const StageSource& source, Problem
             continue;
         }
         const Problem problem = describe(*message, source, line);
-        problems.error(problem.where, problem.message, problem.help);
+        problems.error(problem.where, problem.message, problem.help, callOf(source, line));
         if (message->word == "#error") return;  // What follows is only that the text ends too early.
     }
 }

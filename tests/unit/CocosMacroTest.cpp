@@ -1,0 +1,208 @@
+// Macros of Cocos' dialect: hoisted, with preprocessor lines in their bodies, in front of varyings, nested, bombs.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "CocosFrontTools.h"
+
+namespace crevice::cocos {
+namespace {
+
+using testing::Contains;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::Not;
+
+TEST(CocosMacro, PragmaDefineHoldsForTheWholeStage) {
+    CocosBench bench;
+    bench.chunk("late", "#pragma define MODE_B 1\n#pragma define twice(x) ((x) * 2.0)\n");
+    bench.fragment(
+        "layout(location = 0) out vec4 color;\n#if MODE == MODE_B\nfloat f() { return twice(0.5); }\n#else\n"
+        "float f() { return 0.0; }\n#endif\n#include <late>\nvoid main() { color = vec4(f()); }\n");
+    const StageText text = bench.fragmentText();
+    const auto lines = words(text.flat.text);
+    ASSERT_GE(lines.size(), 2u);
+    EXPECT_EQ(lines[0], "#define MODE_B 1");
+    EXPECT_EQ(lines[1], "#define twice(x) ((x) * 2.0)");
+    EXPECT_EQ(originOf(text, "#define twice"), "late.chunk:2");
+    EXPECT_THAT(macroNames(text), ElementsAre("MODE"));  // MODE_B is the stage's own.
+    bench.compile({{"MODE", "1"}});
+}
+
+TEST(CocosMacro, BranchesOfOtherVersionsDefineNothing) {
+    CocosBench bench;
+    bench.fragment(
+        "#if __VERSION__ < 300\n#pragma define A 1\n#elif __VERSION__ >= 450\n#pragma define A 2\n#else\n"
+        "#pragma define A 3\n#endif\n");
+    EXPECT_EQ(words(bench.fragmentText().flat.text)[0], "#define A 2");
+}
+
+TEST(CocosMacro, DifferentDefinitionsKeepTheirConditions) {
+    CocosBench bench;
+    bench.fragment(
+        "layout(location = 0) out vec4 color;\nvoid main() { color = vec4(A); }\n#if USE_X\n#pragma define A 1.0\n"
+        "#else\n#pragma define A 2.0\n#endif\n");
+    const auto lines = words(bench.fragmentText().flat.text);
+    EXPECT_EQ(lines[0], "#if (USE_X)");
+    EXPECT_EQ(lines[1], "#define A 1.0");
+    EXPECT_EQ(lines[2], "#elif !((USE_X))");
+    EXPECT_EQ(lines[3], "#define A 2.0");
+    EXPECT_EQ(lines[4], "#endif");
+    bench.compile({{"USE_X", "0"}});
+    bench.compile({{"USE_X", "1"}});
+}
+
+TEST(CocosMacro, BodiesWithPreprocessorLinesAreWrittenOut) {
+    CocosBench bench;
+    bench.chunk("more", "float more() { return 1.0; }\n");
+    bench.chunk(
+        "entry",
+        "#define ENTRY() \\\n#if USE_MORE \\\n  #include <more> \\\n  void main() { color = vec4(more()); } \\\n"
+        "#elif USE_LESS // a comment \\\n  void main() { color = vec4(0.5); } \\\n#else \\\n"
+        "  void main() { color = vec4(0.0); } \\\n#endif \\\n#pragma // swallows what follows the call\n");
+    bench.fragment("#include <entry>\nlayout(location = 0) out vec4 color;\nENTRY();\n");
+    const StageText text = bench.fragmentText();
+    EXPECT_THAT(
+        words(text.flat.text),
+        ElementsAre("#define ENTRY ENTRY", "layout(location = 0) out vec4 color;", "#if USE_MORE",
+                    "float more() { return 1.0; }", "void main() { color = vec4(more()); }", "#elif USE_LESS",
+                    "void main() { color = vec4(0.5); }", "#else", "void main() { color = vec4(0.0); }", "#endif"));
+    EXPECT_EQ(originOf(text, "void main() { color = vec4(0.5)"), "entry.chunk:6");
+    EXPECT_EQ(originOf(text, "float more()"), "more.chunk:1");
+    EXPECT_THAT(macroNames(text), ElementsAre("USE_MORE", "USE_LESS"));
+    for (const char* define : {"USE_MORE", "USE_LESS", "USE_NONE"}) bench.compile({{define, "1"}});
+}
+
+TEST(CocosMacro, TheSemicolonBehindADirectiveIsSwallowedAndTheRestKept) {
+    CocosBench bench;
+    bench.fragment("#define SET(x) \\\n#if USE_A \\\nx = 1.0; \\\n#endif\nvoid f() { float a; SET(a); a += 2.0; }\n");
+    EXPECT_THAT(words(bench.fragmentText().flat.text), ElementsAre("#define SET SET", "void f() { float a;",
+                                                                   "#if USE_A", "a = 1.0;", "#endif", "a += 2.0; }"));
+}
+
+TEST(CocosMacro, MacrosThatCallSuchMacrosAreExpandedToo) {
+    CocosBench bench;
+    bench.fragment(
+        "#define INNER(t, n) \\\n#if HIGHP \\\nt n##_low; \\\n#endif \\\n#pragma //\n#define MIDDLE(n) INNER(vec3, n)\n"
+        "#define OUTER(a, b) MIDDLE(a) MIDDLE(b)\n#define plain(x) (x)\nstruct S {\n  OUTER(first, second);\n"
+        "  float z;\n};\n");
+    EXPECT_THAT(words(bench.fragmentText().flat.text),
+                ElementsAre("#define INNER INNER", "#define MIDDLE MIDDLE", "#define OUTER OUTER",
+                            "#define plain(x) (x)", "struct S {", "#if HIGHP", "vec3 first_low;", "#endif", "#if HIGHP",
+                            "vec3 second_low;", "#endif", "float z;", "};"));
+}
+
+TEST(CocosMacro, ArgumentsNestBracketsAndSpanLines) {
+    CocosBench bench;
+    bench.fragment(
+        "#define PUT(to, what) \\\n#if 1 \\\nto = what; \\\n#endif\nvoid f() {\n  vec4 v;\n  PUT(v,\n"
+        "      mix(vec4(0.0, 1.0, 2.0, (3.0)),\n          vec4(1.0), vec4(0.5)))\n}\n");
+    EXPECT_THAT(words(bench.fragmentText().flat.text),
+                Contains("v = mix(vec4(0.0, 1.0, 2.0, (3.0)),           vec4(1.0), vec4(0.5));"));
+    bench.fragment("#define PUT(to) \\\n#if 1 \\\nto; \\\n#endif\nfloat PUTTER; // PUT is only part of the word\n");
+    EXPECT_THAT(words(bench.fragmentText().flat.text), Contains("float PUTTER;"));
+}
+
+TEST(CocosMacro, AnEmptyFunctionLikeDefineTakesTheNextLine) {
+    CocosBench bench;
+    bench.fragment(
+        "layout(location = 0) out vec4 color;\n#define unpackIt(c)\n  dot(c, vec4(1.0, 0.5, 0.25, 0.125))\n"
+        "#define nothing(c)\n#define NOTHING\n\nvoid main() { nothing(1) color = vec4(unpackIt(vec4(1.0))); }\n");
+    EXPECT_THAT(words(bench.fragmentText().flat.text), Contains("#define unpackIt(c) \\"));
+    bench.compile();
+}
+
+TEST(CocosMacro, QualifiersInFrontOfVaryingsAreExpanded) {
+    CocosBench bench;
+    bench.chunk("varyings",
+                "VARYING highp vec3 v_a;\n#if USE_COLOR\n  VARYING lowp vec4 v_color;\n#endif\n#define COUNT 2\n");
+    bench.effect(
+        "#define VARYING out\n#include <varyings>\nvoid main() { v_a = vec3(COUNT); gl_Position = vec4(0.0); }\n",
+        "#define VARYING in\n#include <varyings>\nlayout(location = 0) out vec4 color;\n"
+        "void main() { color = vec4(v_a, 1.0); }\n");
+    const StageText text = bench.fragmentText();
+    EXPECT_THAT(words(text.flat.text), Contains("in highp vec3 v_a;"));
+    EXPECT_THAT(words(text.flat.text), Contains("#define COUNT 2"));
+    EXPECT_EQ(originOf(text, "in highp vec3 v_a;"), "varyings.chunk:1");
+    bench.compile();
+}
+
+TEST(CocosMacro, ParametersOfFunctionsAreNoDeclarations) {
+    CocosBench bench;
+    bench.fragment("#define FN(n) float n(in float x, out float y)\nFN(f) { y = x; return x; }\n");
+    EXPECT_THAT(words(bench.fragmentText().flat.text), Contains("FN(f) { y = x; return x; }"));
+}
+
+TEST(CocosMacro, MistakesInAMacroPointIntoItAndToTheCall) {
+    CocosBench bench;
+    bench.chunk("entry", "#define ENTRY() \\\n#if 1 \\\n void main() { colour = vec4(1.0); } \\\n#endif\n");
+    bench.fragment("#include <entry>\nlayout(location = 0) out vec4 color;\n\nENTRY();\n");
+    const std::string error = bench.compileError();
+    EXPECT_THAT(error, HasSubstr("entry.chunk:3:"));
+    EXPECT_THAT(error, HasSubstr("'colour'"));
+    EXPECT_THAT(error, HasSubstr("t.effect:14"));  // The call.
+}
+
+TEST(CocosMacro, WrongCallsAreErrorsOfTheAuthorsLine) {
+    CocosBench bench;
+    bench.fragment("#define PUT(a, b) \\\n#if 1 \\\na = b; \\\n#endif\n\nvoid f() { PUT(x) }\n");
+    Problem problem = bench.problem();
+    EXPECT_EQ(problem.message, "macro 'PUT' takes 2 arguments, 1 are given");
+    EXPECT_EQ(problem.where.line, 16);
+    bench.fragment("#define PUT(a, b) \\\n#if 1 \\\na = b; \\\n#endif\n\nvoid f() { PUT(x, (y }\n");
+    problem = bench.problem();
+    EXPECT_EQ(problem.message, "the call of macro 'PUT' is not closed");
+    EXPECT_EQ(problem.where.line, 16);
+}
+
+// What hostile files do.
+TEST(CocosMacro, BombsOfWrittenOutMacrosEnd) {
+    CocosBench bench;
+    std::string text = "#define M0() \\\n#if 1 \\\nfloat a; \\\n#endif\n";
+    for (int i = 1; i < 40; ++i) {
+        const std::string inner = "M" + std::to_string(i - 1) + "()";
+        text += "#define M" + std::to_string(i) + "() " + inner + " " + inner + "\n";
+    }
+    bench.fragment(text + "M39()\n");
+    EXPECT_THAT(bench.problem().message, HasSubstr("expands without end"));
+    bench.fragment("#define A() \\\n#if 1 \\\nB() \\\n#endif\n#define B() A() A()\nA()\n");
+    EXPECT_EQ(bench.problem().message, "");  // A macro is not expanded within itself.
+    std::string doubled = "#define D(x) \\\n#if 1 \\\nx x x x x x x x \\\n#endif\nD(";
+    for (int i = 0; i < 60'000; ++i) doubled += "a";
+    bench.fragment(doubled + ")\n");
+    EXPECT_EQ(bench.problem().message, "");
+}
+
+TEST(CocosMacro, BombsForTheCompilersPreprocessorEnd) {
+    CocosBench bench;
+    std::string objects = "#define M0 1.0 + 1.0\n";
+    std::string calls = "#define F(x) (x) * (x)\n";
+    for (int i = 1; i < 64; ++i) {
+        const std::string inner = "M" + std::to_string(i - 1);
+        objects += "#define M" + std::to_string(i) + " " + inner + " + " + inner + "\n";
+    }
+    bench.fragment(objects + "\nfloat f() { return M63; }\n");
+    Problem problem = bench.problem();
+    EXPECT_EQ(problem.message, "macro 'M63' stands for more than 2000000 words here");
+    EXPECT_EQ(problem.where.line, 76);
+    std::string nested = "1.0";
+    for (int i = 0; i < 40; ++i) nested = "F(" + nested + ")";
+    bench.fragment(calls + "float f() { return " + nested + "; }\n");
+    EXPECT_EQ(bench.problem().message, "macro 'F' stands for more than 2000000 words here");
+    bench.fragment(calls + "#define G F\n#define H(x) G(G(G(G(G(x)))))\n#if H(H(H(H(H(H(1))))))\n#endif\n");
+    EXPECT_THAT(bench.problem().message, HasSubstr("stands for more than 2000000 words here"));
+    bench.fragment("#define R R + R\n#define S(x) S(x) + S(x)\nfloat f() { return R + S(R); }\n");
+    EXPECT_EQ(bench.problem().message, "");  // Recursion is none.
+}
+
+TEST(CocosMacro, DeepNestingEnds) {
+    CocosBench bench;
+    std::string nested = "1.0";
+    for (int i = 0; i < 5000; ++i) nested = "F(" + nested + ")";
+    bench.fragment("#define F(x) (x) * (x)\nfloat f() { return " + nested + "; }\n");
+    EXPECT_THAT(bench.problem().message, HasSubstr("stands for more than"));
+    bench.fragment("#if " + std::string(100'000, '(') + "1" + std::string(100'000, ')') + "\nfloat a;\n#endif\n");
+    EXPECT_THAT(bench.problem().message, HasSubstr("nest"));
+}
+
+}  // namespace
+}  // namespace crevice::cocos
