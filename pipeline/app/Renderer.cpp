@@ -68,6 +68,8 @@ void Renderer::setScene(Scene scene) {
         options_.log.note(
             "the scene has no lights: a key light and ambient light were added (--no-default-light leaves it dark)");
     }
+    bounds_ = scene_.bounds();
+    exposureEv_ = scene_.exposureEv ? *scene_.exposureEv : autoExposureEv(scene_);
     if (pipeline_) prepare();
 }
 
@@ -78,15 +80,12 @@ void Renderer::prepare() {
 
 Camera Renderer::cameraFor(const View& view) const {
     const float aspect = static_cast<float>(view.width) / static_cast<float>(view.height);
-    const Aabb bounds = scene_.bounds();
     Camera camera = view.camera               ? *view.camera
                     : !scene_.cameras.empty() ? scene_.cameras.front()
-                                              : frameBounds(bounds, kDefaultFovY, aspect);
-    fitNearFar(camera, bounds);
+                                              : frameBounds(bounds_, kDefaultFovY, aspect);
+    fitNearFar(camera, bounds_);
     return camera;
 }
-
-float Renderer::exposureEv() const { return scene_.exposureEv ? *scene_.exposureEv : autoExposureEv(scene_); }
 
 Image Renderer::render(const View& view) {
     assert(pipeline_ && hasScene_ && "load() and setScene() come first");

@@ -72,7 +72,7 @@ public:
     /// The camera a view is rendered with: near and far filled in.
     Camera cameraFor(const View& view) const;
     /// In force for the scene: its own EV, or the automatic one.
-    float exposureEv() const;
+    float exposureEv() const { return exposureEv_; }
     const Log& log() const { return options_.log; }
     Log& log() { return options_.log; }
     const AssetRoots& roots() const { return options_.roots; }
@@ -89,6 +89,8 @@ private:
     Device device_;
     EffectLibrary effects_;
     Scene scene_;
+    Aabb bounds_;           ///< Of scene_.
+    float exposureEv_ = 0;  ///< In force for scene_.
     bool hasScene_ = false;
     std::unique_ptr<RenderPipeline> pipeline_;
 };

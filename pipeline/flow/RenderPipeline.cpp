@@ -54,7 +54,6 @@ RenderPipeline::RenderPipeline(Device& device, EffectLibrary& library, const Sta
       defaults_(device),
       globals_(device, pool_, samplers_, program_.globals(), defaults_),
       locals_(device, pool_),
-      instances_(device),
       commands_(device, "frame") {}
 
 RenderPipeline::~RenderPipeline() = default;
@@ -74,14 +73,8 @@ void RenderPipeline::prepare(const Scene& scene) {
     locals_.writeLights(forwardLightBlock(scene));
     globals_.update();
     targets_ = std::make_unique<TargetPool>(device_, program_.desc(), program_.plan());
-    context_ = std::make_unique<ExecutionContext>(ExecutionContext{{device_, pool_, samplers_, defaults_},
-                                                                   layouts_,
-                                                                   pipelines_,
-                                                                   globals_,
-                                                                   locals_,
-                                                                   instances_,
-                                                                   commands_,
-                                                                   *targets_});
+    context_ = std::make_unique<ExecutionContext>(ExecutionContext{
+        {device_, pool_, samplers_, defaults_}, layouts_, pipelines_, globals_, locals_, commands_, *targets_});
     for (const PlannedStage& planned : program_.plan().stages) {
         executions_.push_back(
             std::make_unique<StageExecution>(*context_, program_.stages()[planned.use], planned, scene_.get()));
@@ -122,11 +115,11 @@ void RenderPipeline::render(const FrameView& frame, std::span<const std::string>
     activate(view.extent);
     frame_ = frame.extent;
     guard_ = guard;
+    drawsBefore_ = commands_.drawCount();
     commands_.begin();
     barriers_.clear();
     commands_.recordBarriersTo(&barriers_);
     commands_.resetTimestamps(*timestamps_);
-    instances_.beginFrame();
     locals_.beginFrame();
     uploadFrameBlocks(view);
     std::uint32_t slot = 0;
@@ -199,6 +192,7 @@ void RenderPipeline::recordStage(StageExecution& execution, const FrameView& vie
     globals_.restore();
     if (!use.compute) beginStage(execution);
     FrameContext frame(execution, view, scene_->scene());
+    execution.beginFrame();
     execution.stage().render(frame);
     if (!use.compute) commands_.endRendering();
     commands_.endLabel();

@@ -54,6 +54,8 @@ public:
     /// Per stage, in order; their sum against frameMilliseconds() shows what transitions and read-back cost.
     std::vector<StageTime> stageTimes() const;
     double frameMilliseconds() const;
+    /// Draw calls of the last frame.
+    std::uint64_t drawCount() const { return commands_.drawCount() - drawsBefore_; }
     /// Barriers of targets in the last frame, for comparison with the plan.
     const std::vector<RecordedBarrier>& recordedBarriers() const { return barriers_; }
 
@@ -76,7 +78,6 @@ private:
     DefaultTextures defaults_;
     GlobalSet globals_;
     LocalSet locals_;
-    InstanceStream instances_;
     Commands commands_;
     std::unique_ptr<Timestamps> timestamps_;
     std::unique_ptr<SceneGpu> scene_;
@@ -84,7 +85,8 @@ private:
     std::unique_ptr<TargetPool> targets_;
     std::unique_ptr<ExecutionContext> context_;
     std::vector<std::unique_ptr<StageExecution>> executions_;
-    glm::uvec2 frame_{0};      ///< Pixels of the last frame, without the guard.
+    glm::uvec2 frame_{0};  ///< Pixels of the last frame, without the guard.
+    std::uint64_t drawsBefore_ = 0;
     std::uint32_t guard_ = 0;  ///< Pixels around it.
     std::vector<std::unique_ptr<Kept>> kept_;
     std::vector<RecordedBarrier> barriers_;

@@ -1,26 +1,11 @@
 // One vertex and one index buffer for all meshes; one texture per picture and colour space.
 #include "flow/SceneGpu.h"
 
-#include <algorithm>
-#include <cstring>
-
 #include "gfx/Device.h"
 #include "gfx/Readback.h"
 
 namespace crevice {
 namespace {
-
-constexpr std::uint64_t kPieceBytes = 1u << 20;
-
-/// Three rows of the world matrix: a point's world coordinate is the dot product of a row and (x, y, z, 1).
-struct InstanceRows {
-    glm::vec4 row0, row1, row2;
-};
-
-InstanceRows rowsOf(const glm::mat4& world) {
-    const glm::mat4 rows = glm::transpose(world);
-    return {rows[0], rows[1], rows[2]};
-}
 
 SamplerWrap addressMode(TextureWrap wrap) {
     switch (wrap) {
@@ -46,8 +31,7 @@ SamplerKey keyOf(const SamplerDesc& desc) {
 
 }  // namespace
 
-SceneGpu::SceneGpu(Device& device, SamplerCache& samplers, const Scene& scene)
-    : scene_(scene), bounds_(scene.bounds()), instanceBounds_(computeInstanceBounds(scene)) {
+SceneGpu::SceneGpu(Device& device, SamplerCache& samplers, const Scene& scene) : scene_(scene), instances_(scene) {
     uploadMeshes(device);
     uploadTextures(device, samplers);
 }
@@ -85,30 +69,6 @@ void SceneGpu::uploadTextures(Device& device, SamplerCache& samplers) {
 void SceneGpu::bindMeshes(Commands& commands) const {
     commands.bindVertexBuffer(0, vertices_);
     commands.bindIndexBuffer(indices_);
-}
-
-InstanceStream::Slice InstanceStream::append(const Scene& scene, std::span<const std::uint32_t> instances) {
-    const std::uint64_t bytes = instances.size() * sizeof(InstanceRows);
-    while (piece_ < pieces_.size() && used_ + bytes > pieces_[piece_].size()) {
-        ++piece_;
-        used_ = 0;
-    }
-    if (piece_ == pieces_.size()) {
-        pieces_.emplace_back(
-            device_,
-            BufferDesc{.size = std::max(bytes, kPieceBytes), .usage = BufferUsage::Vertex, .name = "instances"});
-        used_ = 0;
-    }
-    Buffer& buffer = pieces_[piece_];
-    std::byte* out = buffer.data().data() + used_;
-    for (const std::uint32_t index : instances) {
-        const InstanceRows rows = rowsOf(scene.instances[index].world);
-        std::memcpy(out, &rows, sizeof rows);
-        out += sizeof rows;
-    }
-    const Slice slice{&buffer, used_};
-    used_ += bytes;
-    return slice;
 }
 
 }  // namespace crevice

@@ -1,4 +1,4 @@
-// A scene on the GPU: meshes and textures uploaded once, and the instance rows that draws read.
+// A scene on the GPU: meshes and textures, uploaded once.
 #pragma once
 
 #include <cstdint>
@@ -22,8 +22,8 @@ public:
     SceneGpu(Device& device, SamplerCache& samplers, const Scene& scene);
 
     const Scene& scene() const { return scene_; }
-    const Aabb& bounds() const { return bounds_; }
-    std::span<const Aabb> instanceBounds() const { return instanceBounds_; }
+    const Aabb& bounds() const { return instances_.bounds(); }
+    const InstanceTable& instances() const { return instances_; }
     const MeshRange& mesh(int index) const { return meshes_[std::size_t(index)]; }
     const GpuTexture& texture(int index) const { return textures_[std::size_t(index)]; }
     VkSampler sampler(int texture) const { return textureSamplers_[std::size_t(texture)]; }
@@ -34,33 +34,11 @@ private:
     void uploadTextures(Device& device, SamplerCache& samplers);
 
     const Scene& scene_;
-    Aabb bounds_;
-    std::vector<Aabb> instanceBounds_;
+    InstanceTable instances_;
     std::vector<MeshRange> meshes_;
     Buffer vertices_, indices_;
     std::vector<GpuTexture> textures_;
     std::vector<VkSampler> textureSamplers_;
-};
-
-/// World matrices of drawn instances as rows, in a host buffer that starts over with every frame and grows by whole
-/// pieces.
-class InstanceStream {
-public:
-    explicit InstanceStream(Device& device) : device_(device) {}
-    void beginFrame() { piece_ = 0, used_ = 0; }
-
-    struct Slice {
-        const Buffer* buffer = nullptr;
-        std::uint64_t offset = 0;
-    };
-    /// Writes the rows of the given instances in order; valid until the frame has finished.
-    Slice append(const Scene& scene, std::span<const std::uint32_t> instances);
-
-private:
-    Device& device_;
-    std::vector<Buffer> pieces_;
-    std::size_t piece_ = 0;
-    std::uint64_t used_ = 0;
 };
 
 }  // namespace crevice

@@ -47,6 +47,7 @@ StageExecution::StageExecution(const ExecutionContext& context, StageProgram& pr
         if (write.write.kind == WriteKind::DepthTest) depthReadOnly_.push_back(write.write.target);
     }
     for (const DrawProgram& draw : program.draws) draws_.push_back(makeShader(*draw.variant, *draw.material, nullptr));
+    views_.resize(program.queues.size());
     for (const QueueProgram& queue : program.queues) {
         std::vector<ShaderGpu>& shaders = queues_.emplace_back();
         for (const SurfaceProgram& surface : queue.surfaces) {
@@ -170,33 +171,50 @@ Groups StageExecution::groupsFor(DrawId draw) const {
     return {groupCount(extent_.x, local[0]), groupCount(extent_.y, local[1]), 1};
 }
 
+void StageExecution::beginFrame() {
+    for (QueueViews& views : views_) views.used = 0;
+}
+
+QueueView& StageExecution::nextView(QueueId queue) {
+    QueueViews& views = views_[queue.index];
+    if (views.used == views.views.size()) views.views.push_back(std::make_unique<QueueView>());
+    return *views.views[views.used++];
+}
+
 void StageExecution::drawQueue(QueueId queue, const glm::mat4& view, const glm::mat4& viewProjection) {
-    if (!scene_ || scene_->scene().instances.empty()) return;
+    if (!scene_ || scene_->instances().size() == 0) return;
     const QueueProgram& program = program_.queues[queue.index];
     const bool blended = program.declaration.queue.sort == QueueSort::BackToFront;
-    const DrawList list = buildDrawList(
-        scene_->scene(), scene_->instanceBounds(), {.view = view, .viewProjection = viewProjection},
-        blended ? DrawFilter::Blend : DrawFilter::Opaque, blended ? DrawOrder::BackToFront : DrawOrder::FrontToBack);
+    QueueView& seen = nextView(queue);
+    seen.update(context_.bindings.device, *scene_, {.view = view, .viewProjection = viewProjection},
+                blended ? DrawFilter::Blend : DrawFilter::Opaque,
+                blended ? DrawOrder::BackToFront : DrawOrder::FrontToBack);
+    const DrawList& list = seen.list();
+    if (list.batches.empty()) return;
     scene_->bindMeshes(context_.commands);
+    context_.commands.bindVertexBuffer(1, seen.rows());
+    const ShaderGpu* bound = nullptr;
+    bool boundFlipped = false;
     for (const DrawBatch& batch : list.batches) {
         const Mesh& mesh = scene_->scene().meshes[std::size_t(batch.mesh)];
         const ShaderGpu& shader = queues_[queue.index][surfaceIndex(batch.material, mesh)];
         if (!shader.pipeline) continue;
-        bindShader(shader, batch.flipped);
-        drawBatch(shader, batch, std::span(list.instances).subspan(batch.firstInstance, batch.instanceCount));
+        if (bound != &shader || boundFlipped != batch.flipped) bindShader(shader, batch.flipped);
+        bound = &shader;
+        boundFlipped = batch.flipped;
+        drawBatch(shader, batch, list.instances);
     }
 }
 
 void StageExecution::drawBatch(const ShaderGpu& shader, const DrawBatch& batch,
                                std::span<const std::uint32_t> instances) {
     const SceneGpu::MeshRange& mesh = scene_->mesh(batch.mesh);
-    const InstanceStream::Slice rows = context_.instances.append(scene_->scene(), instances);
-    context_.commands.bindVertexBuffer(1, *rows.buffer, rows.offset);
     if (!shader.usesLocal) {
-        context_.commands.drawIndexed(mesh.indexCount, batch.instanceCount, mesh.firstIndex, mesh.vertexOffset);
+        context_.commands.drawIndexed(mesh.indexCount, batch.instanceCount, mesh.firstIndex, mesh.vertexOffset,
+                                      batch.firstInstance);
         return;
     }
-    for (std::uint32_t i = 0; i < batch.instanceCount; ++i) {
+    for (std::uint32_t i = batch.firstInstance; i < batch.firstInstance + batch.instanceCount; ++i) {
         context_.locals.bind(context_.commands, scene_->scene().instances[instances[i]].world);
         context_.commands.drawIndexed(mesh.indexCount, 1, mesh.firstIndex, mesh.vertexOffset, i);
     }

@@ -9,6 +9,7 @@
 #include "flow/FrameContext.h"
 #include "flow/FrameProgram.h"
 #include "flow/LocalSet.h"
+#include "flow/QueueView.h"
 #include "flow/ShaderBinding.h"
 
 namespace crevice {
@@ -23,7 +24,6 @@ struct ExecutionContext {
     PipelineCache& pipelines;
     GlobalSet& globals;
     LocalSet& locals;
-    InstanceStream& instances;
     Commands& commands;
     const TargetPool& targets;
 };
@@ -47,6 +47,9 @@ public:
     RenderStage& stage() const { return *program_.stage; }
     const StageProgram& program() const { return program_; }
 
+    /// Before the stage renders, once a frame.
+    void beginFrame();
+
     // What FrameContext hands on.
     void upload(BlockId block, std::span<const std::byte> bytes);
     void draw(DrawId draw);
@@ -68,6 +71,7 @@ private:
     const Pipeline& makePipeline(const EffectVariant& variant, const PipelineLayout& layout, RenderState state);
     void writeShaderTargets(ShaderGpu& shader, const std::vector<Wire>& wires);
     void bindShader(const ShaderGpu& shader, bool flipped);
+    QueueView& nextView(QueueId queue);
     void drawBatch(const ShaderGpu& shader, const DrawBatch& batch, std::span<const std::uint32_t> instances);
 
     const ExecutionContext& context_;
@@ -79,6 +83,12 @@ private:
     std::optional<Format> depthFormat_;
     std::vector<ShaderGpu> draws_;
     std::vector<std::vector<ShaderGpu>> queues_;  ///< [queue][surfaceIndex]
+    /// A stage may draw a queue several times a frame, for several viewers: each time has a view of its own.
+    struct QueueViews {
+        std::vector<std::unique_ptr<QueueView>> views;
+        std::size_t used = 0;  ///< In this frame.
+    };
+    std::vector<QueueViews> views_;  ///< [queue]
     glm::uvec2 extent_{0};
 };
 

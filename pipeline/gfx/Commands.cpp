@@ -217,11 +217,13 @@ void Commands::pushConstants(std::span<const std::byte> bytes) {
 
 void Commands::draw(std::uint32_t vertexCount, std::uint32_t instanceCount, std::uint32_t firstVertex,
                     std::uint32_t firstInstance) {
+    ++drawCount_;
     vkCmdDraw(commands_, vertexCount, instanceCount, firstVertex, firstInstance);
 }
 
 void Commands::drawIndexed(std::uint32_t indexCount, std::uint32_t instanceCount, std::uint32_t firstIndex,
                            std::int32_t vertexOffset, std::uint32_t firstInstance) {
+    ++drawCount_;
     vkCmdDrawIndexed(commands_, indexCount, instanceCount, firstIndex, vertexOffset, firstInstance);
 }
 

@@ -102,6 +102,8 @@ public:
     void drawIndexed(std::uint32_t indexCount, std::uint32_t instanceCount = 1, std::uint32_t firstIndex = 0,
                      std::int32_t vertexOffset = 0, std::uint32_t firstInstance = 0);
     void dispatch(std::uint32_t x, std::uint32_t y = 1, std::uint32_t z = 1);
+    /// draw() and drawIndexed() since this was made.
+    std::uint64_t drawCount() const { return drawCount_; }
 
     // Clears outside rendering; the texture is in TransferDest.
     void clearColor(const GpuTexture& texture, const glm::vec4& value);
@@ -135,6 +137,7 @@ private:
     VkCommandBuffer commands_ = VK_NULL_HANDLE;
     const Pipeline* pipeline_ = nullptr;
     std::vector<RecordedBarrier>* recorded_ = nullptr;
+    std::uint64_t drawCount_ = 0;
     bool recording_ = false;
 };
 

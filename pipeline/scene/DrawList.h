@@ -2,12 +2,11 @@
 #pragma once
 
 #include <cstdint>
-#include <span>
 #include <vector>
 
 #include <glm/glm.hpp>
 
-#include "scene/Scene.h"
+#include "scene/InstanceTable.h"
 
 namespace crevice {
 
@@ -30,6 +29,7 @@ struct DrawBatch {
 struct DrawList {
     std::vector<DrawBatch> batches;
     std::vector<std::uint32_t> instances;  ///< Indices into Scene::instances, batch after batch.
+    bool operator==(const DrawList&) const = default;
 };
 
 /// The six planes of a clip space with depth 0 … 1, pointing inwards, taken from a world → clip matrix.
@@ -37,22 +37,22 @@ struct Frustum {
     explicit Frustum(const glm::mat4& viewProjection);
     /// False only when the box is certainly outside: it lies wholly behind one plane.
     bool intersects(const Aabb& box) const;
+    /// The same of every box of a table: 1 or 0 each.
+    std::vector<std::uint8_t> intersects(const InstanceTable& table) const;
 
 private:
     glm::vec4 planes_[6];
 };
 
-/// World-space box of every instance: compute once per scene, use for every view.
-std::vector<Aabb> computeInstanceBounds(const Scene& scene);
-
 struct DrawView {
     glm::mat4 view{1};            ///< Depth is -z of a box's centre in this space.
     glm::mat4 viewProjection{1};  ///< World → clip, for culling.
     bool cull = true;
+    bool operator==(const DrawView&) const = default;
 };
 
-/// Ties of depth are broken by the instance's index, so the list depends on nothing else.
-DrawList buildDrawList(const Scene& scene, std::span<const Aabb> instanceBounds, const DrawView& view,
-                       DrawFilter filter, DrawOrder order);
+/// Front to back, batches stand in the order of their nearest instance, and a batch's instances by depth. Ties of depth
+/// are broken by the instance's index, so the list depends on nothing else.
+DrawList buildDrawList(const InstanceTable& table, const DrawView& view, DrawFilter filter, DrawOrder order);
 
 }  // namespace crevice

@@ -32,7 +32,7 @@ struct World {
     }
     DrawList build(DrawFilter filter, DrawOrder order, bool cull = true) const {
         const DrawView view{.view = camera.view, .viewProjection = camera.projection(1) * camera.view, .cull = cull};
-        return buildDrawList(scene, computeInstanceBounds(scene), view, filter, order);
+        return buildDrawList(InstanceTable(scene), view, filter, order);
     }
 };
 
@@ -119,9 +119,9 @@ TEST(DrawList, InstanceBoundsAreInWorldSpace) {
     World world;
     world.add(0, 0, {3, 0, 0});
     world.scene.instances[0].world = glm::scale(world.scene.instances[0].world, {2, 4, -6});
-    const std::vector<Aabb> boxes = computeInstanceBounds(world.scene);
-    EXPECT_EQ(boxes[0].min, glm::vec3(2, -2, -3));
-    EXPECT_EQ(boxes[0].max, glm::vec3(4, 2, 3));
+    const InstanceTable table(world.scene);
+    EXPECT_EQ(table.box(0).min, glm::vec3(2, -2, -3));
+    EXPECT_EQ(table.box(0).max, glm::vec3(4, 2, 3));
 }
 
 }  // namespace
