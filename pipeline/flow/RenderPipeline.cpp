@@ -8,6 +8,7 @@
 
 #include "core/Text.h"
 #include "flow/FrameData.h"
+#include "flow/LightGrid.h"
 #include "flow/RenderStage.h"
 #include "gfx/Device.h"
 #include "gfx/Pipeline.h"
@@ -70,6 +71,10 @@ void RenderPipeline::prepare(const Scene& scene) {
     lights_ =
         Buffer(device_, {.size = lights.size(), .usage = BufferUsage::Storage, .name = "punctual lights"}, lights);
     globals_.writeBuffer("CCPunctualLights", lights_);
+    const float exposure = exposureFromEv(scene.exposureEv ? *scene.exposureEv : autoExposureEv(scene));
+    const std::vector<std::byte> grid = lightGridBytes(makeLightGrid(scene, scene_->bounds(), exposure));
+    lightGrid_ = Buffer(device_, {.size = grid.size(), .usage = BufferUsage::Storage, .name = "light grid"}, grid);
+    globals_.writeBuffer("CCLightGrid", lightGrid_);
     locals_.writeLights(forwardLightBlock(scene));
     globals_.update();
     targets_ = std::make_unique<TargetPool>(device_, program_.desc(), program_.plan());

@@ -81,7 +81,7 @@ private:
     Commands commands_;
     std::unique_ptr<Timestamps> timestamps_;
     std::unique_ptr<SceneGpu> scene_;
-    Buffer lights_;
+    Buffer lights_, lightGrid_;
     std::unique_ptr<TargetPool> targets_;
     std::unique_ptr<ExecutionContext> context_;
     std::vector<std::unique_ptr<StageExecution>> executions_;

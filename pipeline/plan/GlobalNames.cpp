@@ -26,7 +26,7 @@ struct BuiltIn {
 };
 
 /// Slots that are in every set 0. Sizes in bytes, as the blocks in effects/chunks have them.
-constexpr std::array<BuiltIn, 8> kBuiltIns{{
+constexpr std::array<BuiltIn, 9> kBuiltIns{{
     {"CCGlobal", GlobalKind::UniformBlock, 0, 48},
     {"CCCamera", GlobalKind::UniformBlock, 1, 544},
     {"CCShadow", GlobalKind::UniformBlock, 2, 304},
@@ -35,6 +35,7 @@ constexpr std::array<BuiltIn, 8> kBuiltIns{{
     {"cc_spotLightingMap", GlobalKind::Sampler2D, 5, 0},
     {"CCSpotShadow", GlobalKind::UniformBlock, 28, 96},
     {"CCPunctualLights", GlobalKind::StorageBuffer, 30, 0},
+    {"CCLightGrid", GlobalKind::StorageBuffer, 31, 0},
 }};
 
 /// Targets that have Cocos' numbers where a document declares them.

@@ -205,6 +205,27 @@ void visitComponents(const tinygltf::Accessor& accessor, const Layout& layout, V
     }
 }
 
+template <class T>
+void widen(const Elements& from, std::vector<std::uint32_t>& to) {
+    const unsigned char* bytes = from.data;
+    if (from.stride == sizeof(T)) {
+        // Equal strides, known when compiling: a loop over vectors.
+        for (std::size_t i = 0; i < to.size(); ++i) to[i] = load<T>(bytes + i * sizeof(T));
+        return;
+    }
+    for (std::uint32_t& value : to) {
+        value = load<T>(bytes);
+        bytes += from.stride;
+    }
+}
+
+// Single integers without sparse ones: most of what indices are.
+void widen(const Elements& from, int type, std::vector<std::uint32_t>& to) {
+    if (type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE) widen<std::uint8_t>(from, to);
+    if (type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT) widen<std::uint16_t>(from, to);
+    if (type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT) widen<std::uint32_t>(from, to);
+}
+
 }  // namespace
 
 void checkAccessor(const File& file, std::size_t index) { layOut(file, index); }
@@ -222,6 +243,23 @@ Floats readFloats(const File& file, int index) {
     return floats;
 }
 
+FloatStream readFloatStream(const File& file, int index) {
+    const tinygltf::Accessor& accessor = file.model.accessors[index];
+    const Layout layout = layOut(file, index);
+    FloatStream stream;
+    stream.components = layout.components;
+    stream.count = accessor.count;
+    if (accessor.componentType == TINYGLTF_COMPONENT_TYPE_FLOAT && layout.base.data && layout.sparseCount == 0) {
+        stream.data_ = layout.base.data;
+        stream.stride_ = layout.base.stride;
+        return stream;
+    }
+    stream.converted_ = readFloats(file, index).values;
+    stream.data_ = reinterpret_cast<const unsigned char*>(stream.converted_.data());
+    stream.stride_ = layout.components * sizeof(float);
+    return stream;
+}
+
 std::vector<std::uint32_t> readIntegers(const File& file, int index) {
     const tinygltf::Accessor& accessor = file.model.accessors[index];
     const Layout layout = layOut(file, index);
@@ -229,6 +267,10 @@ std::vector<std::uint32_t> readIntegers(const File& file, int index) {
         file.fail("accessors", index,
                   fmt::format("'componentType' {} is not an unsigned integer", accessor.componentType));
     std::vector<std::uint32_t> integers(accessor.count * layout.components, 0u);
+    if (layout.base.data && layout.sparseCount == 0 && layout.components == 1) {
+        widen(layout.base, accessor.componentType, integers);
+        return integers;
+    }
     visitComponents(accessor, layout, [&](std::size_t element, int component, const unsigned char* bytes) {
         integers[element * layout.components + component] = toInteger(bytes, accessor.componentType);
     });

@@ -14,14 +14,14 @@ namespace {
 
 /// The accessors of one primitive, read.
 struct Attributes {
-    Floats position, normal, tangent, uv0, uv1, color, joints, weights;
+    FloatStream position, normal, tangent, uv0, uv1, color, joints, weights;
 };
 
 constexpr int kAnyCount = 0;
 
 // An attribute that may be absent. All of a primitive have the count of POSITION.
-Floats readAttribute(const File& file, int mesh, const tinygltf::Primitive& primitive, const char* name, int components,
-                     std::size_t count) {
+FloatStream readAttribute(const File& file, int mesh, const tinygltf::Primitive& primitive, const char* name,
+                          int components, std::size_t count) {
     const auto entry = primitive.attributes.find(name);
     if (entry == primitive.attributes.end()) return {};
     if (entry->second < 0 || std::size_t(entry->second) >= file.model.accessors.size())
@@ -32,7 +32,7 @@ Floats readAttribute(const File& file, int mesh, const tinygltf::Primitive& prim
         file.fail("accessors", entry->second,
                   fmt::format("'count' is {}, but POSITION of meshes[{}] has {}",
                               file.model.accessors[entry->second].count, mesh, count));
-    Floats floats = readFloats(file, entry->second);
+    FloatStream floats = readFloatStream(file, entry->second);
     const bool fits =
         components == kAnyCount ? floats.components == 3 || floats.components == 4 : floats.components == components;
     if (!fits)
@@ -57,13 +57,6 @@ std::vector<std::uint32_t> toTriangleList(int mode, std::vector<std::uint32_t> i
     return list;
 }
 
-template <int N>
-glm::vec<N, float> element(const Floats& floats, std::size_t index) {
-    glm::vec<N, float> value(0);
-    for (int i = 0; i < N; ++i) value[i] = floats.values[index * floats.components + i];
-    return value;
-}
-
 glm::vec3 unitOr(const glm::vec3& vector, const glm::vec3& otherwise) {
     const float length = glm::length(vector);
     return length > 0 && std::isfinite(length) ? vector / length : otherwise;
@@ -71,16 +64,16 @@ glm::vec3 unitOr(const glm::vec3& vector, const glm::vec3& otherwise) {
 
 Vertex makeVertex(const Attributes& from, std::size_t i) {
     Vertex vertex;
-    vertex.position = element<3>(from.position, i);
-    if (from.normal.components) vertex.normal = unitOr(element<3>(from.normal, i), {0, 0, 1});
+    vertex.position = from.position.at<3>(i);
+    if (from.normal.components) vertex.normal = unitOr(from.normal.at<3>(i), {0, 0, 1});
     if (from.tangent.components) {
-        const glm::vec4 tangent = element<4>(from.tangent, i);
+        const glm::vec4 tangent = from.tangent.at<4>(i);
         vertex.tangent = glm::vec4(unitOr(glm::vec3(tangent), {1, 0, 0}), tangent.w < 0 ? -1.0f : 1.0f);
     }
-    if (from.uv0.components) vertex.uv0 = element<2>(from.uv0, i);
-    if (from.uv1.components) vertex.uv1 = element<2>(from.uv1, i);
-    if (from.color.components == 3) vertex.color = glm::vec4(element<3>(from.color, i), 1);
-    if (from.color.components == 4) vertex.color = element<4>(from.color, i);
+    if (from.uv0.components) vertex.uv0 = from.uv0.at<2>(i);
+    if (from.uv1.components) vertex.uv1 = from.uv1.at<2>(i);
+    if (from.color.components == 3) vertex.color = glm::vec4(from.color.at<3>(i), 1);
+    if (from.color.components == 4) vertex.color = from.color.at<4>(i);
     return vertex;
 }
 
@@ -89,9 +82,10 @@ void skin(const File& file, int mesh, const Attributes& from, const std::vector<
           Vertex& vertex) {
     glm::mat4 blend(0);
     float total = 0;
+    const glm::vec4 weights = from.weights.at<4>(i), indices = from.joints.at<4>(i);
     for (int k = 0; k < 4; ++k) {
-        const float weight = from.weights.values[i * 4 + k];
-        const auto joint = static_cast<std::size_t>(from.joints.values[i * 4 + k]);
+        const float weight = weights[k];
+        const auto joint = static_cast<std::size_t>(indices[k]);
         if (weight == 0) continue;
         if (joint >= joints.size())
             file.fail("meshes", mesh, fmt::format("JOINTS_0 names joint {}, the skin has {}", joint, joints.size()));
@@ -125,13 +119,11 @@ void makeFlat(Mesh& mesh) {
     std::iota(mesh.indices.begin(), mesh.indices.end(), 0u);
 }
 
-void checkPositions(const File& file, int mesh, const Mesh& to) {
-    for (std::size_t i = 0; i < to.vertices.size(); ++i) {
-        const glm::vec3& p = to.vertices[i].position;
-        if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z))
-            file.fail("meshes", mesh, fmt::format("POSITION of vertex {} is not a finite number", i));
-    }
+[[noreturn]] void failPosition(const File& file, int mesh, std::size_t vertex) {
+    file.fail("meshes", mesh, fmt::format("POSITION of vertex {} is not a finite number", vertex));
 }
+
+bool isFinite(const glm::vec3& p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); }
 
 std::vector<std::uint32_t> readIndices(const File& file, int mesh, const tinygltf::Primitive& primitive,
                                        std::size_t vertexCount) {
@@ -148,7 +140,9 @@ std::vector<std::uint32_t> readIndices(const File& file, int mesh, const tinyglt
     if (file.model.accessors[primitive.indices].type != TINYGLTF_TYPE_SCALAR)
         file.fail("accessors", primitive.indices, "'type' of indices is not SCALAR");
     indices = readIntegers(file, primitive.indices);
-    for (std::size_t i = 0; i < indices.size(); ++i)
+    std::uint32_t largest = 0;
+    for (const std::uint32_t index : indices) largest = std::max(largest, index);
+    for (std::size_t i = 0; largest >= vertexCount && i < indices.size(); ++i)
         if (indices[i] >= vertexCount)
             file.fail("accessors", primitive.indices,
                       fmt::format("index {} at {} is not below the {} vertices of meshes[{}]", indices[i], i,
@@ -186,7 +180,7 @@ std::optional<Mesh> Meshes::readPrimitive(int meshIndex, std::size_t index, cons
     };
     Attributes attributes;
     attributes.position = read("POSITION", 3, 0);
-    const std::size_t count = attributes.position.count();
+    const std::size_t count = attributes.position.count;
     if (count == 0) return std::nullopt;  // legal, and nothing to draw
     countVertices(count, 0, meshIndex);
     attributes.normal = read("NORMAL", 3, count);
@@ -207,14 +201,18 @@ std::optional<Mesh> Meshes::readPrimitive(int meshIndex, std::size_t index, cons
     mesh.vertices.reserve(count);
     for (std::size_t i = 0; i < count; ++i) {
         mesh.vertices.push_back(makeVertex(attributes, i));
+        Vertex& vertex = mesh.vertices.back();
         if (attributes.joints.components && attributes.weights.components)
-            skin(file_, meshIndex, attributes, joints, i, mesh.vertices.back());
+            skin(file_, meshIndex, attributes, joints, i, vertex);
+        if (!isFinite(vertex.position)) failPosition(file_, meshIndex, i);
+        mesh.bounds.add(vertex.position);
     }
-    if (!attributes.normal.components) makeFlat(mesh);
+    if (!attributes.normal.components) {
+        makeFlat(mesh);
+        updateBounds(mesh);  // of the corners in use
+    }
     countVertices(mesh.vertices.size() - std::min(count, mesh.vertices.size()), mesh.indices.size(), meshIndex);
-    checkPositions(file_, meshIndex, mesh);
     mesh.hasTangents = attributes.tangent.components == 4;
-    updateBounds(mesh);
     return mesh;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <cstring>
 #include <map>
 #include <optional>
 #include <string>
@@ -44,6 +45,28 @@ struct Floats {
 };
 void checkAccessor(const File& file, std::size_t index);
 Floats readFloats(const File& file, int accessor);
+
+/// Vectors of floats as a mesh takes them, one after the other: read where they lie in the file's buffer when they are
+/// floats already, so that big meshes are not copied twice. Must not outlive the file.
+class FloatStream {
+public:
+    int components = 0;  ///< 0: the attribute is not there.
+    std::size_t count = 0;
+
+    template <int N>
+    glm::vec<N, float> at(std::size_t index) const {
+        glm::vec<N, float> value;
+        std::memcpy(&value, data_ + index * stride_, sizeof value);
+        return value;
+    }
+
+private:
+    friend FloatStream readFloatStream(const File& file, int accessor);
+    const unsigned char* data_ = nullptr;
+    std::size_t stride_ = 0;
+    std::vector<float> converted_;  ///< What data_ points to, unless that is the file. Moves keep the place.
+};
+FloatStream readFloatStream(const File& file, int accessor);
 /// Unsigned integers of a scalar or vector accessor (indices, joints), one after the other.
 std::vector<std::uint32_t> readIntegers(const File& file, int accessor);
 

@@ -21,7 +21,7 @@ double milliseconds(const timeval& time) {
 
 }  // namespace
 
-double childMilliseconds(const std::vector<std::string>& arguments) {
+ChildCost runChild(const std::vector<std::string>& arguments) {
     std::vector<char*> argv;
     for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
     argv.push_back(nullptr);
@@ -36,7 +36,9 @@ double childMilliseconds(const std::vector<std::string>& arguments) {
     rusage usage{};
     if (wait4(child, &status, 0, &usage) != child || !WIFEXITED(status) || WEXITSTATUS(status) != 0)
         throw Error(fmt::format("'{}' failed", arguments[0]), "its message is above");
-    return milliseconds(usage.ru_utime) + milliseconds(usage.ru_stime);
+    return {milliseconds(usage.ru_utime) + milliseconds(usage.ru_stime), std::uint64_t(usage.ru_maxrss) * 1024};
 }
+
+double childMilliseconds(const std::vector<std::string>& arguments) { return runChild(arguments).milliseconds; }
 
 }  // namespace crevice::bench

@@ -1,10 +1,19 @@
 // Whole programs as the benchmark sees them: started, waited for, their processor time read.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
 namespace crevice::bench {
+
+struct ChildCost {
+    double milliseconds = 0;      ///< Processor time, threads included.
+    std::uint64_t peakBytes = 0;  ///< Most resident memory.
+};
+
+/// Throws Error when the program fails.
+ChildCost runChild(const std::vector<std::string>& arguments);
 
 /// Milliseconds of processor time that a program used, its threads included. Throws Error when it fails.
 double childMilliseconds(const std::vector<std::string>& arguments);

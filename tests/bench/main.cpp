@@ -11,6 +11,7 @@
 #include "Children.h"
 #include "ProcessClock.h"
 #include "Report.h"
+#include "Scale.h"
 
 namespace crevice::bench {
 namespace {
@@ -147,6 +148,11 @@ int main(int argc, char** argv) {
     app.add_option("--json", options.json, "Write the results as JSON too")->type_name("FILE");
     app.add_option("--scene", options.view.scene, "Another scene than the atrium")->type_name("FILE");
     app.add_flag("--smoke", options.smoke, "One small round; fails when a picture is wrong");
+    ScaleOptions scale;
+    CLI::Option* scaled =
+        app.add_option("--scale", scale.curves, "Curves instead: objects, triangles, lights, pixels, textures, or all")
+            ->type_name("CURVE")
+            ->expected(0, 5);
     CLI11_PARSE(app, argc, argv);
     if (options.smoke) {
         options.repeats = 1;
@@ -154,7 +160,12 @@ int main(int argc, char** argv) {
         options.view.height = 360;
     }
     try {
-        return run(options);
+        if (scaled->count() == 0) return run(options);
+        scale.repeats = std::min(options.repeats, 5);
+        if (scale.curves == std::vector<std::string>{"all"} || scale.curves == std::vector<std::string>{""})
+            scale.curves.clear();
+        runScale(scale);
+        return 0;
     } catch (const std::exception& error) {
         fmt::print(stderr, "{}\n", error.what());
         return 1;

@@ -32,6 +32,7 @@ inline BindingMap contractBindings() {
                       {"cc_ssaoBlurMap", {0, 13}},
                       {"CCSpotShadow", {0, 28}},
                       {"CCPunctualLights", {0, 30}},
+                      {"CCLightGrid", {0, 31}},
                       {"CCLocal", {2, 0}},
                       {"CCForwardLight", {2, 1}}};
     return map;

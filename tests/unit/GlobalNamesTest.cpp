@@ -35,7 +35,8 @@ TEST(GlobalNames, BuiltInSlotsHaveTheNumbersOfTheContract) {
         {"CCGlobal", GlobalKind::UniformBlock, 0, 48},      {"CCCamera", GlobalKind::UniformBlock, 1, 544},
         {"CCShadow", GlobalKind::UniformBlock, 2, 304},     {"cc_shadowMap", GlobalKind::Sampler2D, 3, 0},
         {"cc_environment", GlobalKind::SamplerCube, 4, 0},  {"cc_spotLightingMap", GlobalKind::Sampler2D, 5, 0},
-        {"CCSpotShadow", GlobalKind::UniformBlock, 28, 96}, {"CCPunctualLights", GlobalKind::StorageBuffer, 30, 0}};
+        {"CCSpotShadow", GlobalKind::UniformBlock, 28, 96}, {"CCPunctualLights", GlobalKind::StorageBuffer, 30, 0},
+        {"CCLightGrid", GlobalKind::StorageBuffer, 31, 0}};
     ASSERT_EQ(layout.slots().size(), expected.size());
     for (std::size_t i = 0; i < expected.size(); ++i) {
         const GlobalSlot& slot = layout.slots()[i];

@@ -1,0 +1,157 @@
+// Everything follows from the counts alone: our own generator, no seed to choose.
+#include "ScaleScenes.h"
+
+#include <cmath>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+#include <glm/gtc/matrix_transform.hpp>
+
+#include "core/Error.h"
+#include "scene/Primitives.h"
+
+namespace crevice::bench {
+namespace {
+
+/// Numbers from 0 to 1: multiplicative congruential, 2^-32 steps (P. L'Ecuyer, 1999, table 4).
+class Sequence {
+public:
+    float next() {
+        state_ = state_ * 2891336453u + 1u;
+        return static_cast<float>(state_ >> 8) / 16777216.0f;
+    }
+    glm::vec3 point(const Aabb& box) {
+        const float x = next(), y = next(), z = next();
+        return glm::mix(box.min, box.max, glm::vec3(x, y, z));
+    }
+
+private:
+    std::uint32_t state_ = 1;
+};
+
+template <class T>
+void append(std::vector<char>& bytes, const T& value) {
+    const auto* begin = reinterpret_cast<const char*>(&value);
+    bytes.insert(bytes.end(), begin, begin + sizeof value);
+}
+
+// One wavy square: positions, normals, texture coordinates, indices, one after the other.
+std::vector<char> wavySquare(std::uint32_t side, float offset) {
+    std::vector<char> bytes;
+    const std::uint32_t row = side + 1;
+    const auto height = [&](float x, float z) { return 0.05f * std::sin(9 * x + offset) * std::cos(7 * z); };
+    const auto forAll = [&](auto visit) {
+        for (std::uint32_t j = 0; j < row; ++j)
+            for (std::uint32_t i = 0; i < row; ++i) visit(float(i) / float(side), float(j) / float(side));
+    };
+    forAll([&](float x, float z) { append(bytes, glm::vec3(x + offset, height(x, z), z)); });
+    forAll([&](float x, float z) {
+        const float dx = 0.45f * std::cos(9 * x + offset) * std::cos(7 * z);
+        const float dz = -0.35f * std::sin(9 * x + offset) * std::sin(7 * z);
+        append(bytes, glm::normalize(glm::vec3(-dx, 1, -dz)));
+    });
+    forAll([&](float x, float z) { append(bytes, glm::vec2(x, z)); });
+    for (std::uint32_t j = 0; j < side; ++j)
+        for (std::uint32_t i = 0; i < side; ++i) {
+            const std::uint32_t a = j * row + i, b = a + row;
+            for (const std::uint32_t index : {a, b, a + 1, a + 1, b, b + 1}) append(bytes, index);
+        }
+    return bytes;
+}
+
+std::string jsonFor(std::uint32_t meshes, std::uint32_t side, std::uint64_t meshBytes) {
+    const std::uint64_t vertices = std::uint64_t(side + 1) * (side + 1), indices = std::uint64_t(side) * side * 6;
+    std::string views, accessors, primitives, nodes, roots;
+    for (std::uint32_t m = 0; m < meshes; ++m) {
+        const char* comma = m == 0 ? "" : ",";
+        std::uint64_t at = m * meshBytes;
+        const std::uint64_t sizes[4] = {vertices * 12, vertices * 12, vertices * 8, indices * 4};
+        for (int i = 0; i < 4; ++i) {
+            views +=
+                fmt::format(R"({}{{"buffer":0,"byteOffset":{},"byteLength":{}}})", i == 0 ? comma : ",", at, sizes[i]);
+            at += sizes[i];
+        }
+        const auto accessor = [&](int i, std::uint64_t count, const char* type, int component, const char* more) {
+            return fmt::format(R"({{"bufferView":{},"componentType":{},"count":{},"type":"{}"{}}})", 4 * m + i,
+                               component, count, type, more);
+        };
+        accessors += comma + accessor(0, vertices, "VEC3", 5126, R"(,"min":[-1000,-1,0],"max":[1000,1,1])") + "," +
+                     accessor(1, vertices, "VEC3", 5126, "") + "," + accessor(2, vertices, "VEC2", 5126, "") + "," +
+                     accessor(3, indices, "SCALAR", 5125, "");
+        primitives += fmt::format(
+            R"({}{{"primitives":[{{"attributes":{{"POSITION":{},"NORMAL":{},"TEXCOORD_0":{}}},"indices":{}}}]}})",
+            comma, 4 * m, 4 * m + 1, 4 * m + 2, 4 * m + 3);
+        nodes += fmt::format(R"({}{{"mesh":{}}})", comma, m);
+        roots += fmt::format("{}{}", comma, m);
+    }
+    return fmt::format(R"({{"asset":{{"version":"2.0"}},"buffers":[{{"byteLength":{}}}],"bufferViews":[{}],)"
+                       R"("accessors":[{}],"meshes":[{}],"nodes":[{}],"scenes":[{{"nodes":[{}]}}],"scene":0}})",
+                       meshes * meshBytes, views, accessors, primitives, nodes, roots);
+}
+
+}  // namespace
+
+Scene manyObjects(std::uint32_t count) {
+    Scene scene;
+    scene.name = fmt::format("{} objects", count);
+    scene.materials.resize(1);
+    for (int i = 0; i < 10; ++i) {
+        const float size = 0.3f + 0.04f * float(i);
+        scene.meshes.push_back(i % 2 == 0 ? makeBox({size, 0.5f, size}) : makeCylinder(size, 0, 0.6f, 5));
+    }
+    const auto side = std::uint32_t(std::ceil(std::sqrt(double(count))));
+    for (std::uint32_t i = 0; i < count; ++i) {
+        Instance instance;
+        instance.mesh = int(i % 10);
+        const glm::vec2 place = glm::vec2(i % side, i / side) - 0.5f * float(side);
+        instance.world = glm::translate(glm::mat4(1), {place.x, 0, place.y});
+        scene.instances.push_back(instance);
+    }
+    Light sun;
+    sun.direction = glm::normalize(glm::vec3(1, -2, 1));
+    scene.lights.push_back(sun);
+    return scene;
+}
+
+void addSmallLights(Scene& scene, std::uint32_t count) {
+    Sequence sequence;
+    const Aabb bounds = scene.bounds();
+    const float range = bounds.diagonal() / 40;
+    for (std::uint32_t i = 0; i < count; ++i) {
+        Light light;
+        light.type = LightType::Point;
+        light.position = sequence.point(bounds);
+        const float r = sequence.next(), g = sequence.next(), b = sequence.next();
+        light.color = {0.3f + 0.7f * r, 0.3f + 0.7f * g, 0.3f + 0.7f * b};
+        light.range = range;
+        light.intensity = 2 * range * range;
+        light.castsShadow = false;
+        scene.lights.push_back(light);
+    }
+}
+
+std::uint64_t writeManyTriangles(const std::filesystem::path& path, std::uint32_t meshes, std::uint32_t side) {
+    const std::uint64_t meshBytes = wavySquare(side, 0).size();
+    std::string json = jsonFor(meshes, side, meshBytes);
+    json.resize((json.size() + 3) / 4 * 4, ' ');
+    const std::uint64_t binaryBytes = meshes * meshBytes;
+    std::ofstream out(path, std::ios::binary);
+    const auto word = [&](std::uint64_t value) {
+        const auto bits = std::uint32_t(value);
+        out.write(reinterpret_cast<const char*>(&bits), sizeof bits);
+    };
+    word(0x46546c67), word(2), word(28 + json.size() + binaryBytes);
+    word(json.size()), word(0x4e4f534a);
+    out.write(json.data(), std::streamsize(json.size()));
+    word(binaryBytes), word(0x004e4942);
+    for (std::uint32_t m = 0; m < meshes; ++m) {
+        const std::vector<char> bytes = wavySquare(side, 1.1f * float(m));
+        out.write(bytes.data(), std::streamsize(bytes.size()));
+    }
+    if (!out.flush()) throw Error(fmt::format("cannot write '{}'", path.string()), "is the disk full?");
+    return binaryBytes;
+}
+
+}  // namespace crevice::bench
