@@ -74,7 +74,11 @@ void Renderer::setScene(Scene scene) {
 }
 
 void Renderer::prepare() {
-    pipeline_->prepare(scene_);
+    if (options_.keepScene)
+        pipeline_->prepare(scene_);
+    else
+        pipeline_->prepareReleasing(scene_);
+    hasScene_ = options_.keepScene;
     options_.log.verbose(fmt::format("exposure {:.3g} EV{}", exposureEv(), scene_.exposureEv ? "" : " (automatic)"));
 }
 
@@ -88,7 +92,7 @@ Camera Renderer::cameraFor(const View& view) const {
 }
 
 Image Renderer::render(const View& view) {
-    assert(pipeline_ && hasScene_ && "load() and setScene() come first");
+    assert(pipeline_ && pipeline_->scene() && "load() and setScene() come first");
     FrameView frame;
     frame.camera = cameraFor(view);
     frame.extent = {view.width, view.height};

@@ -27,9 +27,12 @@
 namespace crevice {
 
 struct RendererOptions {
-    std::string device{};      ///< Index or part of a name; empty = the best.
-    bool validate = false;     ///< Vulkan validation, synchronization included.
-    bool useCache = true;      ///< SPIR-V on disk.
+    std::string device{};   ///< Index or part of a name; empty = the best.
+    bool validate = false;  ///< Vulkan validation, synchronization included.
+    bool useCache = true;   ///< SPIR-V on disk.
+    /// False: once a pipeline has the scene, scene() keeps no vertices, indices and pixels, and another pipeline must
+    /// be loaded before setScene(). Saves half of a big scene's memory.
+    bool keepScene = true;
     bool defaultLight = true;  ///< A scene without lights gets a key light and ambient, with a note.
     AssetRoots roots = AssetRoots::standard();
     Log log{};
@@ -89,9 +92,9 @@ private:
     Device device_;
     EffectLibrary effects_;
     Scene scene_;
-    Aabb bounds_;           ///< Of scene_.
-    float exposureEv_ = 0;  ///< In force for scene_.
-    bool hasScene_ = false;
+    Aabb bounds_;            ///< Of scene_.
+    float exposureEv_ = 0;   ///< In force for scene_.
+    bool hasScene_ = false;  ///< With all its vertices and pixels.
     std::unique_ptr<RenderPipeline> pipeline_;
 };
 

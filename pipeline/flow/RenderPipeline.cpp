@@ -59,14 +59,15 @@ RenderPipeline::RenderPipeline(Device& device, EffectLibrary& library, const Sta
 
 RenderPipeline::~RenderPipeline() = default;
 
-void RenderPipeline::prepare(const Scene& scene) {
+void RenderPipeline::prepare(const Scene& scene, Scene* releasing) {
     executions_.clear();
     targets_.reset();
     scene_.reset();
     program_.prepare(&scene);
     log_.write(program_.globals().notes());
     log_.write(program_.plan().notes);
-    scene_ = std::make_unique<SceneGpu>(device_, samplers_, scene);
+    scene_ = releasing ? SceneGpu::makeReleasing(device_, samplers_, *releasing)
+                       : std::make_unique<SceneGpu>(device_, samplers_, scene);
     const std::vector<std::byte> lights = punctualLights(scene);
     lights_ =
         Buffer(device_, {.size = lights.size(), .usage = BufferUsage::Storage, .name = "punctual lights"}, lights);

@@ -31,7 +31,9 @@ public:
 
     /// Uploads the scene, compiles what its materials need and plans the frame. The scene must outlive its use here,
     /// unchanged.
-    void prepare(const Scene& scene);
+    void prepare(const Scene& scene) { prepare(scene, nullptr); }
+    /// The same; what is uploaded is let go of in the scene: see SceneGpu::makeReleasing().
+    void prepareReleasing(Scene& scene) { prepare(scene, &scene); }
 
     /// Renders one frame and waits. Targets are made anew only when the extent differs from the last frame's.
     /// With a guard in the document the frame is rendered with a border (see guardedView()), and image() is without it.
@@ -61,6 +63,7 @@ public:
 
 private:
     struct Kept;
+    void prepare(const Scene& scene, Scene* releasing);
     void activate(glm::uvec2 extent);
     void uploadFrameBlocks(const FrameView& view);
     void recordStage(StageExecution& execution, const FrameView& view);

@@ -7,6 +7,13 @@
 namespace crevice {
 namespace {
 
+constexpr std::size_t kShortVertices = 1 << 16;
+
+void narrow(std::span<const std::uint32_t> indices, std::span<std::byte> out) {
+    auto* to = reinterpret_cast<std::uint16_t*>(out.data());
+    for (std::size_t i = 0; i < indices.size(); ++i) to[i] = static_cast<std::uint16_t>(indices[i]);
+}
+
 SamplerWrap addressMode(TextureWrap wrap) {
     switch (wrap) {
         case TextureWrap::Repeat:
@@ -31,44 +38,59 @@ SamplerKey keyOf(const SamplerDesc& desc) {
 
 }  // namespace
 
-SceneGpu::SceneGpu(Device& device, SamplerCache& samplers, const Scene& scene) : scene_(scene), instances_(scene) {
-    uploadMeshes(device);
-    uploadTextures(device, samplers);
+SceneGpu::SceneGpu(Device& device, SamplerCache& samplers, const Scene& scene, Scene* releasing)
+    : scene_(scene), instances_(scene) {
+    uploadMeshes(device, releasing);
+    uploadTextures(device, samplers, releasing);
 }
 
-void SceneGpu::uploadMeshes(Device& device) {
-    std::uint64_t vertexCount = 0, indexCount = 0;
+void SceneGpu::uploadMeshes(Device& device, Scene* releasing) {
+    std::uint64_t vertexCount = 0, indexCount = 0, shortCount = 0;
     for (const Mesh& mesh : scene_.meshes) {
-        meshes_.push_back({static_cast<std::uint32_t>(indexCount), static_cast<std::uint32_t>(mesh.indices.size()),
-                           static_cast<std::int32_t>(vertexCount)});
+        const bool sixteenBit = mesh.vertices.size() <= kShortVertices;
+        std::uint64_t& count = sixteenBit ? shortCount : indexCount;
+        meshes_.push_back({static_cast<std::uint32_t>(count), static_cast<std::uint32_t>(mesh.indices.size()),
+                           static_cast<std::int32_t>(vertexCount), sixteenBit});
         vertexCount += mesh.vertices.size();
-        indexCount += mesh.indices.size();
+        count += mesh.indices.size();
     }
-    if (indexCount == 0) return;
+    if (indexCount + shortCount == 0) return;
     vertices_ =
         Buffer(device, {.size = vertexCount * sizeof(Vertex), .usage = BufferUsage::Vertex, .name = "scene vertices"});
-    indices_ = Buffer(
-        device, {.size = indexCount * sizeof(std::uint32_t), .usage = BufferUsage::Index, .name = "scene indices"});
+    if (indexCount > 0)
+        indices_ = Buffer(
+            device, {.size = indexCount * sizeof(std::uint32_t), .usage = BufferUsage::Index, .name = "scene indices"});
+    if (shortCount > 0)
+        shortIndices_ = Buffer(device, {.size = shortCount * sizeof(std::uint16_t),
+                                        .usage = BufferUsage::Index,
+                                        .name = "scene indices of 16 bits"});
     for (std::size_t i = 0; i < meshes_.size(); ++i) {
         const Mesh& mesh = scene_.meshes[i];
-        vertices_.write(std::as_bytes(std::span(mesh.vertices)),
-                        std::uint64_t(meshes_[i].vertexOffset) * sizeof(Vertex));
-        indices_.write(std::as_bytes(std::span(mesh.indices)), meshes_[i].firstIndex * sizeof(std::uint32_t));
+        const MeshRange& range = meshes_[i];
+        vertices_.write(std::as_bytes(std::span(mesh.vertices)), std::uint64_t(range.vertexOffset) * sizeof(Vertex));
+        if (range.sixteenBit)
+            narrow(mesh.indices, shortIndices_.data().subspan(range.firstIndex * sizeof(std::uint16_t)));
+        else
+            indices_.write(std::as_bytes(std::span(mesh.indices)), range.firstIndex * sizeof(std::uint32_t));
+        if (!releasing) continue;
+        releasing->meshes[i].vertices = {};
+        releasing->meshes[i].indices = {};
     }
 }
 
-void SceneGpu::uploadTextures(Device& device, SamplerCache& samplers) {
-    for (const crevice::SceneTexture& texture : scene_.textures) {
-        Image image = texture.image;
+void SceneGpu::uploadTextures(Device& device, SamplerCache& samplers, Scene* releasing) {
+    for (std::size_t i = 0; i < scene_.textures.size(); ++i) {
+        const crevice::SceneTexture& texture = scene_.textures[i];
+        // A moved image keeps its size.
+        Image image = releasing ? std::move(releasing->textures[i].image) : texture.image;
         if (texture.srgb && image.format == Format::RGBA8) image.format = Format::RGBA8_SRGB;
         textures_.push_back(makeTexture(device, image, texture.sampler.mipmaps, texture.name));
         textureSamplers_.push_back(samplers.get(keyOf(texture.sampler)));
     }
 }
 
-void SceneGpu::bindMeshes(Commands& commands) const {
-    commands.bindVertexBuffer(0, vertices_);
-    commands.bindIndexBuffer(indices_);
+void SceneGpu::bindIndices(Commands& commands, bool sixteenBit) const {
+    commands.bindIndexBuffer(sixteenBit ? shortIndices_ : indices_, 0, sixteenBit);
 }
 
 }  // namespace crevice

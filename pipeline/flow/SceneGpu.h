@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -16,10 +17,16 @@ public:
     struct MeshRange {
         std::uint32_t firstIndex = 0, indexCount = 0;
         std::int32_t vertexOffset = 0;
+        bool sixteenBit = false;  ///< Which of the two index buffers.
     };
 
     /// The scene must stay as it is while this lives.
-    SceneGpu(Device& device, SamplerCache& samplers, const Scene& scene);
+    SceneGpu(Device& device, SamplerCache& samplers, const Scene& scene) : SceneGpu(device, samplers, scene, nullptr) {}
+    /// The same, but vertices, indices and pixels in `scene` are let go of one by one as the device has them: peak
+    /// memory is then little above one copy. Everything else in it stays.
+    static std::unique_ptr<SceneGpu> makeReleasing(Device& device, SamplerCache& samplers, Scene& scene) {
+        return std::unique_ptr<SceneGpu>(new SceneGpu(device, samplers, scene, &scene));
+    }
 
     const Scene& scene() const { return scene_; }
     const Aabb& bounds() const { return instances_.bounds(); }
@@ -27,16 +34,19 @@ public:
     const MeshRange& mesh(int index) const { return meshes_[std::size_t(index)]; }
     const GpuTexture& texture(int index) const { return textures_[std::size_t(index)]; }
     VkSampler sampler(int texture) const { return textureSamplers_[std::size_t(texture)]; }
-    void bindMeshes(Commands& commands) const;
+    void bindVertices(Commands& commands) const { commands.bindVertexBuffer(0, vertices_); }
+    void bindIndices(Commands& commands, bool sixteenBit) const;
 
 private:
-    void uploadMeshes(Device& device);
-    void uploadTextures(Device& device, SamplerCache& samplers);
+    /// `releasing`: the scene, when its copies are not wanted afterwards; else null.
+    SceneGpu(Device& device, SamplerCache& samplers, const Scene& scene, Scene* releasing);
+    void uploadMeshes(Device& device, Scene* releasing);
+    void uploadTextures(Device& device, SamplerCache& samplers, Scene* releasing);
 
     const Scene& scene_;
     InstanceTable instances_;
     std::vector<MeshRange> meshes_;
-    Buffer vertices_, indices_;
+    Buffer vertices_, indices_, shortIndices_;  ///< Meshes of up to 65536 vertices have indices of 16 bits.
     std::vector<GpuTexture> textures_;
     std::vector<VkSampler> textureSamplers_;
 };

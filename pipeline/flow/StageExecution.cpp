@@ -191,10 +191,11 @@ void StageExecution::drawQueue(QueueId queue, const glm::mat4& view, const glm::
                 blended ? DrawOrder::BackToFront : DrawOrder::FrontToBack);
     const DrawList& list = seen.list();
     if (list.batches.empty()) return;
-    scene_->bindMeshes(context_.commands);
+    scene_->bindVertices(context_.commands);
     context_.commands.bindVertexBuffer(1, seen.rows());
     const ShaderGpu* bound = nullptr;
     bool boundFlipped = false;
+    std::optional<bool> boundIndices;
     for (const DrawBatch& batch : list.batches) {
         const Mesh& mesh = scene_->scene().meshes[std::size_t(batch.mesh)];
         const ShaderGpu& shader = queues_[queue.index][surfaceIndex(batch.material, mesh)];
@@ -202,6 +203,9 @@ void StageExecution::drawQueue(QueueId queue, const glm::mat4& view, const glm::
         if (bound != &shader || boundFlipped != batch.flipped) bindShader(shader, batch.flipped);
         bound = &shader;
         boundFlipped = batch.flipped;
+        const bool sixteenBit = scene_->mesh(batch.mesh).sixteenBit;
+        if (boundIndices != sixteenBit) scene_->bindIndices(context_.commands, sixteenBit);
+        boundIndices = sixteenBit;
         drawBatch(shader, batch, list.instances);
     }
 }

@@ -83,6 +83,7 @@ void RenderRun::start() {
     renderer_ = std::make_unique<Renderer>(RendererOptions{.device = options_.device,
                                                            .validate = options_.validate,
                                                            .useCache = !options_.noCache,
+                                                           .keepScene = false,
                                                            .defaultLight = !options_.noDefaultLight,
                                                            .roots = pipeline_.roots(),
                                                            .log = makeLog(options_.console, progress_)});
