@@ -1,6 +1,8 @@
 // Draw lists: what is culled, in which order things are drawn, what is merged.
 #include "scene/DrawList.h"
 
+#include <algorithm>
+
 #include <gtest/gtest.h>
 #include <glm/gtc/matrix_transform.hpp>
 
@@ -122,6 +124,82 @@ TEST(DrawList, InstanceBoundsAreInWorldSpace) {
     const InstanceTable table(world.scene);
     EXPECT_EQ(table.box(0).min, glm::vec3(2, -2, -3));
     EXPECT_EQ(table.box(0).max, glm::vec3(4, 2, 3));
+}
+
+// The rules written out slowly: every box against every plane, a stable sort of (depth, index), batches by first use.
+DrawList slowList(const World& world, const DrawView& view, DrawFilter filter, DrawOrder order) {
+    const InstanceTable table(world.scene);
+    const Frustum frustum(view.viewProjection);
+    std::vector<std::pair<float, std::uint32_t>> items;
+    for (std::uint32_t i = 0; i < world.scene.instances.size(); ++i) {
+        const bool blended = world.scene.materials[world.scene.instances[i].material].alphaMode == AlphaMode::Blend;
+        if (filter != DrawFilter::All && blended != (filter == DrawFilter::Blend)) continue;
+        if (!frustum.intersects(table.box(i))) continue;
+        items.emplace_back(-(view.view * glm::vec4(table.box(i).centre(), 1)).z, i);
+    }
+    const bool nearFirst = order == DrawOrder::FrontToBack;
+    std::stable_sort(items.begin(), items.end(),
+                     [&](const auto& a, const auto& b) { return nearFirst ? a.first < b.first : a.first > b.first; });
+    const auto batchFor = [&](std::uint32_t i) {
+        const Instance& instance = world.scene.instances[i];
+        return DrawBatch{.mesh = instance.mesh, .material = instance.material, .flipped = instance.flipped};
+    };
+    std::vector<std::pair<DrawBatch, Indices>> batches;
+    for (const auto& [depth, i] : items) {
+        auto found = std::find_if(batches.begin(), batches.end(), [&](auto& b) { return b.first == batchFor(i); });
+        if (!nearFirst)
+            found = !batches.empty() && batches.back().first == batchFor(i) ? batches.end() - 1 : batches.end();
+        if (found == batches.end()) found = batches.insert(batches.end(), {batchFor(i), {}});
+        found->second.push_back(i);
+    }
+    DrawList list;
+    for (auto& [batch, members] : batches) {
+        batch.firstInstance = std::uint32_t(list.instances.size());
+        batch.instanceCount = std::uint32_t(members.size());
+        list.batches.push_back(batch);
+        list.instances.insert(list.instances.end(), members.begin(), members.end());
+    }
+    return list;
+}
+
+// Enough for the radix sort. Depths are multiples of 1/8 and the camera looks along -z, so equal depths are frequent
+// and no sum is rounded.
+TEST(DrawList, ThousandsOfObjectsFollowTheSameRules) {
+    World world;
+    std::uint32_t state = 1;
+    const auto next = [&](std::uint32_t count) {
+        state = state * 1664525u + 1013904223u;
+        return (state >> 16) % count;
+    };
+    for (int i = 0; i < 5000; ++i) {
+        const glm::vec3 place = glm::vec3(int(next(400)) - 200, int(next(400)) - 200, int(next(800)) - 700) / 8.0f;
+        world.add(int(next(2)), int(next(4)), place, next(5) == 0);
+    }
+    const DrawView view{.view = world.camera.view, .viewProjection = world.camera.projection(1) * world.camera.view};
+    for (const DrawFilter filter : {DrawFilter::Opaque, DrawFilter::Blend, DrawFilter::All})
+        for (const DrawOrder order : {DrawOrder::FrontToBack, DrawOrder::BackToFront}) {
+            const DrawList list = world.build(filter, order);
+            EXPECT_GT(list.instances.size(), 600u);
+            EXPECT_LT(list.instances.size(), 4000u) << "nothing is culled";
+            EXPECT_EQ(list, slowList(world, view, filter, order));
+            EXPECT_TRUE(order == DrawOrder::BackToFront || list.batches.size() <= 16u) << list.batches.size();
+        }
+}
+
+TEST(DrawList, AHundredThousandInstancesOfTenMeshesAreTenBatches) {
+    World world;
+    world.scene.meshes.assign(10, makeBox({1, 1, 1}));
+    for (int i = 0; i < 100000; ++i) world.add(i % 10, 0, {float(i % 300) - 150, 0, -float(i / 300) * 0.2f});
+    EXPECT_EQ(world.build(DrawFilter::Opaque, DrawOrder::FrontToBack, false).batches.size(), 10u);
+}
+
+TEST(DrawList, InstancesOfEmptyMeshesAreNotDrawn) {
+    World world;
+    world.scene.meshes.push_back({});
+    world.add(2, 0, {0, 0, -5});
+    world.add(0, 0, {0, 0, -6});
+    EXPECT_EQ(world.build(DrawFilter::All, DrawOrder::FrontToBack, false).instances, Indices{1});
+    EXPECT_TRUE(InstanceTable(world.scene).box(0).empty);
 }
 
 }  // namespace
