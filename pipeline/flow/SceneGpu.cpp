@@ -73,8 +73,8 @@ void SceneGpu::uploadMeshes(Device& device, Scene* releasing) {
         else
             indices_.write(std::as_bytes(std::span(mesh.indices)), range.firstIndex * sizeof(std::uint32_t));
         if (!releasing) continue;
-        releasing->meshes[i].vertices = {};
-        releasing->meshes[i].indices = {};
+        releasing->meshes[i].vertices = std::vector<Vertex>();  // not {}, which would keep the memory
+        releasing->meshes[i].indices = std::vector<std::uint32_t>();
     }
 }
 
