@@ -4,19 +4,19 @@
 
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
-#include <nlohmann/json.hpp>
 
 #include "app/commands/ArgumentText.h"
 #include "app/commands/Commands.h"
 #include "app/commands/Console.h"
 #include "app/commands/EffectBindings.h"
+#include "app/commands/EffectPaths.h"
+#include "app/commands/EffectReport.h"
 #include "app/commands/EffectVariants.h"
+#include "cocos/EffectReflection.h"
 #include "core/Text.h"
 
 namespace crevice {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 constexpr const char* kExamples =
     "Examples:\n"
@@ -28,6 +28,7 @@ constexpr const char* kExamples =
 struct CompileOptions {
     std::vector<std::string> effects, defines;
     std::string pipeline;
+    CocosOptions cocos;
     PluginOptions plugins;
     ConsoleOptions console;
     bool allVariants = false, json = false, text = false, noCache = false;
@@ -38,86 +39,96 @@ class CompileRun {
 public:
     explicit CompileRun(const CompileOptions& options)
         : options_(options),
-          log_(makeLog(options.console)),
-          library_(effectRoots(options.pipeline), log_, {.useDiskCache = !options.noCache}),
-          bindings_(effectBindings(options.pipeline, options.plugins, log_)) {
+          progress_(options.console.quiet),
+          log_(makeLog(options.console, progress_)),
+          roots_(effectRoots(options.pipeline)),
+          effects_(expandEffects(options.effects, roots_)),
+          library_(roots_, log_, {.useDiskCache = !options.noCache}),
+          report_(options.json, options.text, log_) {
         for (const std::string& define : options.defines) {
             auto [name, value] = parseAssignment("--define", define, "NAME=VALUE");
             given_[name] = value;
         }
+        const bool cocos = readsCocos(options.cocos, effects_, roots_);
+        // Without a pipeline Cocos' own numbers stay as they are written.
+        if (!cocos || !options.pipeline.empty()) bindings_ = effectBindings(options.pipeline, options.plugins, log_);
+        if (!cocos) return;
+        auto reader = std::make_unique<cocos::CocosEffects>(cocosRoots(options.cocos, effects_));
+        cocos_ = reader.get();
+        library_.addFrontEnd(std::move(reader));
     }
 
     int run() {
-        checkDefines();
-        for (const std::string& effect : options_.effects) compileEffect(effect);
-        if (options_.json) {
-            print(results_.dump(2) + "\n");
-        } else if (!options_.text) {
-            print(fmt::format("{} compiled, {} failed; {} effect{}\n", compiled_, failed_, options_.effects.size(),
-                              options_.effects.size() == 1 ? "" : "s"));
+        if (cocos_ == nullptr) checkDefines();
+        for (const std::string& effect : effects_) {
+            progress_.show(fmt::format("{} of {}: {}", ++begun_, effects_.size(), effect));
+            compileEffect(effect);
         }
-        return failed_ == 0 ? 0 : 1;
+        progress_.clear();
+        report_.finish(effects_.size(), cocos_ != nullptr);
+        return report_.failed() == 0 ? 0 : 1;
     }
 
 private:
     void compileEffect(const std::string& name);
     void compilePass(const std::string& name, const EffectPass& pass, std::size_t technique, std::size_t index);
     void compileVariant(const VariantRequest& request, const EffectPass& pass);
-    void reportVariant(const VariantRequest& request, const EffectPass& pass, const EffectVariant* variant,
-                       const std::string& message);
+    void reflect(const EffectAsset& effect);
     void checkDefines();
     Defines definesFor(const std::vector<DefineInfo>& infos) const;
 
     const CompileOptions& options_;
+    Progress progress_;
     Log log_;
+    AssetRoots roots_;
+    std::vector<std::string> effects_;
     EffectLibrary library_;
+    cocos::CocosEffects* cocos_ = nullptr;  ///< Owned by the library; null = our own dialect.
+    EffectReport report_;
     BindingMap bindings_;
     Defines given_;
-    std::size_t compiled_ = 0, failed_ = 0;
-    Json results_ = Json::array();
+    std::size_t begun_ = 0;
 };
 
-std::string definesText(const Defines& defines) {
-    std::string text;
-    for (const auto& [name, value] : defines) text += fmt::format(" {}={}", name, value);
-    return text;
-}
-
-Json resourcesJson(const ShaderInfo& info) {
-    Json resources = Json::array();
-    for (const ShaderResource& resource : info.resources) {
-        resources.push_back({{"name", resource.name},
-                             {"kind", kindName(resource.kind)},
-                             {"set", resource.slot.set},
-                             {"binding", resource.slot.binding},
-                             {"size", resource.size},
-                             {"active", resource.active}});
-    }
-    return resources;
-}
-
-/// An effect whose header cannot be read is bad input; one whose pass does not compile is a "no".
+/// An effect whose header cannot be read is bad input; one whose pass does not compile is a "no". Of a folder of Cocos'
+/// effects the others are still worth an answer.
 void CompileRun::compileEffect(const std::string& name) {
-    const EffectAsset& effect = library_.asset(name);
-    for (std::size_t t = 0; t < effect.techniques.size(); ++t) {
-        const std::vector<EffectPass>& passes = effect.techniques[t].passes;
+    const EffectAsset* effect = nullptr;
+    try {
+        effect = &library_.asset(name);
+    } catch (const Error& error) {
+        if (cocos_ == nullptr || effects_.size() == 1) throw;
+        report_.unreadable(name, formatError(error));
+        return;
+    }
+    for (std::size_t t = 0; t < effect->techniques.size(); ++t) {
+        const std::vector<EffectPass>& passes = effect->techniques[t].passes;
         for (std::size_t p = 0; p < passes.size(); ++p) compilePass(name, passes[p], t, p);
     }
+    if (cocos_ != nullptr && options_.json) reflect(*effect);
+}
+
+void CompileRun::reflect(const EffectAsset& effect) {
+    Problems problems;  // Said before, pass by pass.
+    report_.addReflection(cocos::reflectEffect(*cocos_, effect, problems));
 }
 
 void CompileRun::compilePass(const std::string& name, const EffectPass& pass, std::size_t technique,
                              std::size_t index) {
-    VariantRequest request{.effect = name, .technique = technique, .pass = index, .defines = {}, .where = {}};
-    std::vector<DefineInfo> infos;
-    try {
-        infos = library_.discoverDefines(name, technique, index);
-    } catch (const Error& error) {
-        reportVariant(request, pass, nullptr, formatError(error));
-        return;
+    VariantRequest request{
+        .effect = name, .technique = technique, .pass = index, .defines = {}, .where = {}, .checkOnly = true};
+    // A macro set is switched over a whole folder: what a pass does not know says nothing to it.
+    std::vector<Defines> variants{given_};
+    if (cocos_ == nullptr || options_.allVariants) {
+        try {
+            const std::vector<DefineInfo> infos = library_.discoverDefines(name, technique, index);
+            const Defines fixed = definesFor(infos);
+            variants = options_.allVariants ? enumerateVariants(infos, fixed) : std::vector<Defines>{fixed};
+        } catch (const Error& error) {
+            report_.failure(request, pass, error);
+            return;
+        }
     }
-    const Defines fixed = definesFor(infos);
-    const std::vector<Defines> variants =
-        options_.allVariants ? enumerateVariants(infos, fixed) : std::vector<Defines>{fixed};
     for (const Defines& defines : variants) {
         request.defines = defines;
         compileVariant(request, pass);
@@ -125,42 +136,15 @@ void CompileRun::compilePass(const std::string& name, const EffectPass& pass, st
 }
 
 void CompileRun::compileVariant(const VariantRequest& request, const EffectPass& pass) {
-    if (options_.text) {
-        for (const ShaderStageBits stage : {kVertexBit, kFragmentBit, kComputeBit})
-            print(library_.text(request, stage));
-    }
     try {
-        reportVariant(request, pass, &library_.get(request, bindings_), {});
-    } catch (const Error& error) {
-        reportVariant(request, pass, nullptr, formatError(error));
-    }
-}
-
-void CompileRun::reportVariant(const VariantRequest& request, const EffectPass& pass, const EffectVariant* variant,
-                               const std::string& message) {
-    ++(variant ? compiled_ : failed_);
-    const auto bytes = [](const std::vector<std::uint32_t>& words) { return words.size() * sizeof(std::uint32_t); };
-    if (options_.json) {
-        Json result = {{"effect", request.effect}, {"technique", request.technique}, {"pass", request.pass},
-                       {"phase", pass.phase},      {"defines", request.defines},     {"ok", variant != nullptr}};
-        if (variant) {
-            result["bytes"] = {{"vertex", bytes(variant->vertex)},
-                               {"fragment", bytes(variant->fragment)},
-                               {"compute", bytes(variant->compute)}};
-            result["resources"] = resourcesJson(variant->info);
-        } else {
-            result["message"] = message;
+        if (options_.text) {
+            for (const ShaderStageBits stage : {kVertexBit, kFragmentBit, kComputeBit})
+                print(library_.text(request, stage));
         }
-        results_.push_back(std::move(result));
-        return;
+        report_.success(request, pass, library_.get(request, bindings_));
+    } catch (const Error& error) {
+        report_.failure(request, pass, error);
     }
-    if (!variant) log_.write(LogLevel::Error, fmt::format("'{}' does not compile", request.effect));
-    if (!variant) std::fprintf(stderr, "%s\n", message.c_str());
-    if (options_.text) return;
-    const std::size_t size = variant ? bytes(variant->vertex) + bytes(variant->fragment) + bytes(variant->compute) : 0;
-    print(fmt::format("{} {} technique {} pass {} ({}){}{}\n", variant ? "ok    " : "FAILED", request.effect,
-                      request.technique, request.pass, pass.phase, definesText(request.defines),
-                      variant ? fmt::format(": {} bytes of SPIR-V", size) : ""));
 }
 
 Defines CompileRun::definesFor(const std::vector<DefineInfo>& infos) const {
@@ -175,7 +159,7 @@ Defines CompileRun::definesFor(const std::vector<DefineInfo>& infos) const {
 /// A macro may be unknown to some of the passes, not to all of them.
 void CompileRun::checkDefines() {
     std::vector<std::string> known;
-    for (const std::string& name : options_.effects) {
+    for (const std::string& name : effects_) {
         const std::vector<EffectTechnique>& techniques = library_.asset(name).techniques;
         for (std::size_t t = 0; t < techniques.size(); ++t) {
             for (std::size_t p = 0; p < techniques[t].passes.size() && !given_.empty(); ++p) {
@@ -203,12 +187,14 @@ int runCompile(const CompileOptions& options) {
 void addEffectsCompileCommand(CLI::App& effects, Action& action) {
     CLI::App* command = effects.add_subcommand("compile", "Compile effects; exit code 1 when a pass fails");
     const auto options = std::make_shared<CompileOptions>();
-    command->add_option("effect", options->effects, "Names, or paths of .effect files")->type_name("NAME");
+    command->add_option("effect", options->effects, "Names, .effect files, or folders of them")->type_name("PATH");
+    addCocosOptions(*command, options->cocos);
     command->add_option("--define", options->defines, "Value of a macro (repeatable)")
         ->type_name("NAME=VALUE")
         ->allow_extra_args(false);
     command->add_flag("--all-variants", options->allVariants, "Every combination of macros, or each alone when many");
-    command->add_flag("--json", options->json, "Results as JSON: sizes, resources, messages");
+    command->add_flag("--json", options->json,
+                      "Results as JSON: sizes, resources, messages; for Cocos' effects their reflection");
     command->add_flag("--text", options->text, "Print the GLSL that is compiled");
     command->add_flag("--no-cache", options->noCache, "Compile all shaders anew");
     command->add_option("-p,--pipeline", options->pipeline, "Number set 0 as this pipeline does")
