@@ -6,6 +6,7 @@
 #include <deque>
 
 #include "cocos/ChunkLibrary.h"
+#include "cocos/Fingerprint.h"
 #include "cocos/Flattener.h"
 #include "cocos/StageAnalysis.h"
 #include "core/Files.h"
@@ -62,6 +63,7 @@ struct CocosEffects::State {
         StageText text;
     };
     std::deque<Kept> kept;
+    std::optional<std::string> fingerprint;
 
     StageText stageText(const EffectAsset& effect, const StagePart& part, Problems& problems);
 };
@@ -113,6 +115,15 @@ std::vector<std::string> CocosEffects::names() const { return state_->effects.na
 EffectAsset CocosEffects::parse(const fs::path& path, const std::string& name, Problems& problems) {
     const std::string shown = state_->effects.nameOf(path).value_or(name);
     return parseEffect(readText(path, kMaxEffectBytes), shown, path.string(), problems, EffectReading::Tolerant);
+}
+
+std::string CocosEffects::fingerprint() {
+    if (!state_->fingerprint) {
+        state_->fingerprint = fingerprintOf(state_->roots);
+        if (!state_->fingerprint->empty() && !state_->options.numbering.rebindByName)
+            *state_->fingerprint += " literal";
+    }
+    return *state_->fingerprint;
 }
 
 std::vector<StageText> CocosEffects::flatten(const EffectAsset& effect, const EffectPass& pass, Problems& problems) {

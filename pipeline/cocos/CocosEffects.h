@@ -29,6 +29,7 @@ public:
     std::vector<std::string> names() const override;
 
     EffectAsset parse(const std::filesystem::path& path, const std::string& name, Problems& problems) override;
+    std::string fingerprint() override;
     std::vector<DefineInfo> defines(const EffectAsset& effect, const EffectPass& pass, Problems& problems) override;
     std::vector<StageSource> stages(const EffectAsset& effect, const EffectPass& pass, const VariantRequest& request,
                                     const BindingMap& bindings, Problems& problems) override;

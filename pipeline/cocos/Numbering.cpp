@@ -157,7 +157,10 @@ private:
             return pinned->second;
         }
         if (declaration.builtin == Builtin::None || bindings_.empty()) return own;
-        const BindingSlot slot{kMaterialSet, nextFree_++};
+        // Alternatives on one place (CCLocal, CCLocalBatched) stay on one place.
+        const auto [shared, isNew] = homeless_.emplace(own, BindingSlot{kMaterialSet, nextFree_});
+        if (isNew) ++nextFree_;
+        const BindingSlot slot = shared->second;
         problems_.verbose(declaration.where,
                           fmt::format("the pipeline has no '{}': it is set {}, binding {} of the material here",
                                       declaration.name, slot.set, slot.binding));
@@ -178,6 +181,7 @@ private:
     const NumberingOptions& options_;
     Problems& problems_;
     BindingMap moved_;
+    std::map<BindingSlot, BindingSlot> homeless_;  ///< Of builtins that the pipeline does not have, by Cocos' slot.
     std::uint32_t nextFree_ = 0;
 };
 

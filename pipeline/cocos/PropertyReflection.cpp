@@ -28,10 +28,18 @@ Target parseTarget(const std::string& text) {
     return target;
 }
 
+/// Numbers as JSON has them: 1.0 is 1.
+Value plainNumber(const Value& value) {
+    if (value.isBool()) return Value::makeInteger(value.boolean() ? 1 : 0);
+    return value.isNumber() ? Value::makeNumber(value.number()) : value;
+}
+
 Value listOf(const Value& value) {
-    if (value.isArray() || value.isString()) return value;
+    if (value.isString()) return value;
     Value list = Value::makeArray();
-    list.items().push_back(value.isBool() ? Value::makeInteger(value.boolean() ? 1 : 0) : value);
+    if (!value.isArray()) list.items().push_back(plainNumber(value));
+    if (value.isArray())
+        for (const Value& item : value.items()) list.items().push_back(plainNumber(item));
     return list;
 }
 

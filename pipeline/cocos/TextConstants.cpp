@@ -94,8 +94,9 @@ private:
         const auto known = constants_.values_.find(name);
         if (known == constants_.values_.end()) return largest;
         for (const auto& range : known->second) {
-            const auto value = ConstantReader(constants_, range.begin, range.end, depth_ + 1, steps_).read();
+            auto value = ConstantReader(constants_, range.begin, range.end, depth_ + 1, steps_).read();
             if (!value) return std::nullopt;
+            value->certain = value->certain && range.certain;
             if (largest) {
                 largest->certain = largest->certain && value->certain && largest->value == value->value;
                 largest->value = std::max(largest->value, value->value);
@@ -131,11 +132,12 @@ void TextConstants::addDefine(const std::vector<GlslToken>& tokens, std::size_t 
     const std::string_view word = tokens[name].text;
     const bool function =
         value < end && tokens[value].text == "(" && tokens[value].text.data() == word.data() + word.size();
-    if (!function) add(word, tokens.data() + value, tokens.data() + end);
+    const bool adjacent = tokens[first + 1].text.data() == tokens[first].text.data() + 1;
+    if (!function) add(word, tokens.data() + value, tokens.data() + end, adjacent);
 }
 
-void TextConstants::add(std::string_view name, const GlslToken* begin, const GlslToken* end) {
-    values_[name].push_back({begin, end});
+void TextConstants::add(std::string_view name, const GlslToken* begin, const GlslToken* end, bool certain) {
+    values_[name].push_back({begin, end, certain});
 }
 
 std::optional<TextConstants::Result> TextConstants::evaluate(const GlslToken* begin, const GlslToken* end) const {

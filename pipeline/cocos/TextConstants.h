@@ -16,12 +16,13 @@ class TextConstants {
 public:
     struct Result {
         std::int64_t value = 0;
-        bool certain = true;  ///< False: a name has several values, and the largest was taken.
+        bool certain = true;  ///< False: a name has several values, of which the largest was taken, or `# define`.
     };
 
-    /// Takes in a `#define` line, its `#` at `first`; function-like macros are no constants.
+    /// Takes in a `#define` line, its `#` at `first`; function-like macros are no constants. `# define`, which Cocos'
+    /// compiler leaves to the GLSL compiler, counts as uncertain.
     void addDefine(const std::vector<GlslToken>& tokens, std::size_t first, std::size_t end);
-    void add(std::string_view name, const GlslToken* begin, const GlslToken* end);
+    void add(std::string_view name, const GlslToken* begin, const GlslToken* end, bool certain = true);
     /// A number from outside of the text, uncertain: what a macro may be at most.
     void addLimit(std::string_view name, std::int64_t largest) { limits_[name] = largest; }
 
@@ -34,6 +35,7 @@ private:
     struct Range {
         const GlslToken* begin;
         const GlslToken* end;
+        bool certain;
     };
     std::map<std::string_view, std::vector<Range>> values_;
     std::map<std::string_view, std::int64_t> limits_;

@@ -142,6 +142,13 @@ TEST(CocosReflection, BlockSizesThatAMacroDecidesAreNotCounted) {
     EXPECT_EQ(shader.find("builtins")->find("statistics")->find("CC_EFFECT_USED_VERTEX_UNIFORM_VECTORS")->integer(), 1);
 }
 
+TEST(CocosReflection, ADefineThatIsKeptFromTheCompilerIsNotCounted) {
+    Problems problems;
+    const Value shader = reflectShader(
+        "x", {stageText(kVertexBit, "# define N 4\nuniform L { vec4 pos[N]; vec4 other; };\n")}, problems);
+    EXPECT_EQ(shader.find("builtins")->find("statistics")->find("CC_EFFECT_USED_VERTEX_UNIFORM_VECTORS")->integer(), 1);
+}
+
 const UniformTypes kUniforms = {
     {"albedo", 16}, {"scaleAndCutoff", 16}, {"params", 16}, {"albedoMap", 28}, {"mainColor", 16},
     {"sky", 31},    {"last", 13},           {"mode", 6}};
