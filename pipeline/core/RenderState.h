@@ -7,6 +7,7 @@
 namespace crevice {
 
 enum class CompareOp : std::uint8_t { Never, Less, Equal, LessEqual, Greater, NotEqual, GreaterEqual, Always };
+enum class StencilOp : std::uint8_t { Zero, Keep, Replace, Incr, Decr, Invert, IncrWrap, DecrWrap };
 enum class CullMode : std::uint8_t { None, Front, Back };
 enum class PolygonMode : std::uint8_t { Fill, Line, Point };
 enum class BlendFactor : std::uint8_t {
@@ -40,6 +41,16 @@ struct BlendTarget {
     bool operator==(const BlendTarget&) const = default;
 };
 
+/// What Cocos' files say of the stencil test of one side. Crevice's targets have no stencil: it is kept, not drawn
+/// with.
+struct StencilFace {
+    bool test = false;
+    CompareOp func = CompareOp::Always;
+    std::uint32_t readMask = 0xffff, writeMask = 0xffff, ref = 1;
+    StencilOp failOp = StencilOp::Keep, zFailOp = StencilOp::Keep, passOp = StencilOp::Keep;
+    bool operator==(const StencilFace&) const = default;
+};
+
 struct RenderState {
     Topology topology = Topology::TriangleList;
     PolygonMode polygonMode = PolygonMode::Fill;
@@ -49,6 +60,7 @@ struct RenderState {
     bool depthTest = true;
     bool depthWrite = true;
     CompareOp depthFunc = CompareOp::Less;
+    StencilFace stencilFront{}, stencilBack{};
     std::vector<BlendTarget> blendTargets{};  ///< Per colour attachment; missing ones do not blend.
     bool operator==(const RenderState&) const = default;
 };

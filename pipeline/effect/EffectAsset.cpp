@@ -31,6 +31,10 @@ public:
                 readProgram(start);
             } else {
                 if (word.empty()) ++at_;
+                if (reading_ == EffectReading::Tolerant) {
+                    skipStray(start);
+                    continue;
+                }
                 problems_.error(placeOf(start, std::max<std::size_t>(1, word.size())), "text outside of the blocks",
                                 "only 'CCEffect %{ … }%' and 'CCProgram NAME %{ … }%' and comments stand here");
                 return;
@@ -60,6 +64,13 @@ private:
         return false;
     }
 
+    /// Cocos reads the blocks and nothing else.
+    void skipStray(std::size_t start) {
+        at_ =
+            std::min({text_.find('\n', at_), text_.find("CCProgram", at_), text_.find("CCEffect", at_), text_.size()});
+        problems_.verbose(placeOf(start, 1), "text outside of the blocks is not read");
+    }
+
     std::string readName() {
         const std::size_t start = at_;
         while (at_ < text_.size() && isNamePart(text_[at_])) ++at_;
@@ -85,7 +96,8 @@ private:
         const std::size_t begin = at_ + 2;
         const auto end = text_.find("}%", begin);
         // Neither GLSL nor YAML has `%{`: before the end it begins the next block.
-        if (end == std::string_view::npos || text_.find("%{", begin) < end) {
+        const bool open = reading_ == EffectReading::Strict ? text_.find("%{", begin) < end : holdsBlock(begin, end);
+        if (end == std::string_view::npos || open) {
             problems_.error(placeOf(start, what.size()), fmt::format("the block '{}' is not closed", what),
                             "end it with }%");
             stopped_ = true;
@@ -95,6 +107,17 @@ private:
         body.firstLine = placeOf(begin, 1).line;
         at_ = end + 2;
         return true;
+    }
+
+    /// The beginning of a block within another: that one's end is missing.
+    bool holdsBlock(std::size_t begin, std::size_t end) const {
+        const std::string_view body = text_.substr(begin, end == std::string_view::npos ? end : end - begin);
+        for (std::size_t at = body.find("%{"); at != std::string_view::npos; at = body.find("%{", at + 2)) {
+            const std::string_view line = body.substr(body.rfind('\n', at) + 1);
+            const auto word = std::min(line.find_first_not_of(" \t"), line.size());
+            if (line.substr(word).starts_with("CCProgram") || line.substr(word).starts_with("CCEffect")) return true;
+        }
+        return false;
     }
 
     /// YAML indents by spaces: how wide a tab is, nobody can know.
@@ -146,6 +169,12 @@ private:
         }
         if (!readBody(start, "CCProgram " + name, body)) return;
         if (const auto it = effect_.programs.find(name); it != effect_.programs.end()) {
+            if (reading_ == EffectReading::Tolerant) {
+                problems_.warning(placeOf(nameStart, name.size()),
+                                  fmt::format("two programs are named '{}': the last one holds", name));
+                it->second = std::move(body);
+                return;
+            }
             problems_.error(placeOf(nameStart, name.size()), fmt::format("two programs are named '{}'", name),
                             "rename one of them", {{{effect_.path, it->second.firstLine, 0, 1}, "the first one"}});
             return;

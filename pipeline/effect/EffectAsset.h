@@ -30,6 +30,8 @@ struct EffectPass {
     std::string vertex, fragment, compute;  ///< "program" or "program:entry"
     SourceLoc vertexWhere, fragmentWhere, computeWhere;
     std::string phase = "default";
+    std::string
+        passName;  ///< Cocos' `pass`: a render graph's pass; empty or "default" = drawn by the pipelines we read.
     int priority = 128;
     std::vector<EffectProperty> properties;
     std::optional<int> propertyIndex;

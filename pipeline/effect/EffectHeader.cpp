@@ -3,8 +3,9 @@
 
 #include <fmt/format.h>
 
-#include <charconv>
+#include <algorithm>
 
+#include "effect/PriorityExpression.h"
 #include "effect/RenderStateReader.h"
 
 namespace crevice {
@@ -70,7 +71,8 @@ private:
         if (const Value* name = reader.string("switch")) pass.switchMacro = name->string();
         if (const Value* macros = reader.object("embeddedMacros")) readMacros(*macros, pass);
         if (const Value* index = reader.number("propertyIndex")) readPropertyIndex(*index, pass);
-        for (const char* ignored : {"pass", "subpass", "stage", "migrations"}) reader.find(ignored);
+        if (const Value* name = reader.string("pass")) pass.passName = name->string();
+        for (const char* ignored : {"subpass", "stage", "migrations"}) reader.find(ignored);
         pass.state = readRenderState(reader);
         if (const Value* properties = reader.object("properties"))
             for (const Member& member : properties->members()) pass.properties.push_back(readProperty(member));
@@ -120,32 +122,16 @@ private:
             pass.properties = technique.passes[index].properties;
     }
 
-    /// "", "+11" or "-10".
-    static std::optional<int> readOffset(std::string_view text) {
-        if (text.empty()) return 0;
-        if (text[0] != '+' && text[0] != '-') return std::nullopt;
-        int offset = 0;
-        const char* end = text.data() + text.size();
-        const auto [rest, error] = std::from_chars(text.data() + (text[0] == '+' ? 1 : 0), end, offset);
-        if (error != std::errc{} || rest != end || offset > 255 || offset < -255) return std::nullopt;
-        return offset;
-    }
-
     /// A number or Cocos' little expressions: `max`, `max - 10`, `min + 11`.
     int readPriority(const Value& value) {
         constexpr int kMin = 0, kMax = 255, kDefault = 128;
-        if (value.isInteger() && value.integer() >= kMin && value.integer() <= kMax)
-            return static_cast<int>(value.integer());
-        if (value.isString()) {
-            std::string text;
-            for (const char c : value.string())
-                if (c != ' ') text += c;
-            for (const auto& [name, base] : {std::pair("max", kMax), {"min", kMin}, {"default", kDefault}}) {
-                const std::string_view word(name);
-                if (!text.starts_with(word)) continue;
-                const std::optional<int> offset = readOffset(std::string_view(text).substr(word.size()));
-                if (offset && base + *offset >= kMin && base + *offset <= kMax) return base + *offset;
-            }
+        std::optional<int> priority;
+        if (value.isInteger()) priority = static_cast<int>(std::clamp<std::int64_t>(value.integer(), -1, kMax + 1));
+        if (value.isString()) priority = evaluatePriority(value.string());
+        if (priority && *priority >= kMin && *priority <= kMax) return *priority;
+        if (priority && reading_ == EffectReading::Tolerant) {
+            problems_.warning(value.where(), "'priority' is beyond 0 to 255", "the nearer end is taken");
+            return std::clamp(*priority, kMin, kMax);
         }
         problems_.error(value.where(), "'priority' must be 0 to 255 or an expression such as 'max - 10'",
                         "min is 0, max is 255, default is 128");
@@ -161,6 +147,8 @@ private:
                 pass.embeddedMacros[member.key] = std::to_string(value.integer());
             else if (value.isString())
                 pass.embeddedMacros[member.key] = value.string();
+            else if (reading_ == EffectReading::Tolerant)
+                problems_.warning(value.where(), fmt::format("macro '{}' has no usable value", member.key));
             else
                 problems_.error(value.where(),
                                 fmt::format("macro '{}' must be a bool, an integer or a word", member.key),
@@ -173,6 +161,7 @@ private:
         property.name = member.key;
         property.where = member.keyLoc;
         property.where.length = std::max(1, static_cast<int>(member.key.size()));
+        if (reading_ == EffectReading::Tolerant && member.value.isNull()) return property;
         if (!expectMap(member.value, "a property")) return property;
         KeyReader reader(member.value, fmt::format("property '{}'", member.key), reading_, problems_);
         if (const Value* value = reader.find("value")) readPropertyValue(*value, property);
@@ -188,10 +177,15 @@ private:
     }
 
     void readPropertyValue(const Value& value, EffectProperty& property) {
+        const bool tolerant = reading_ == EffectReading::Tolerant;
         bool good = value.isNumber() || value.isString() || value.isNull();
+        if (tolerant && value.isBool()) {
+            property.value = Value::makeInteger(value.boolean() ? 1 : 0, value.where());
+            return;
+        }
         if (value.isArray()) {
             const std::size_t count = value.items().size();
-            good = (count >= 2 && count <= 4) || count == 16;
+            good = (count >= 2 && count <= 4) || count == 16 || (tolerant && count >= 1);
             for (const Value& item : value.items()) good = good && item.isNumber();
         }
         if (!good)

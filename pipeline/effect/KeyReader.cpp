@@ -25,6 +25,12 @@ const Value* KeyReader::typed(const char* key, bool (Value::*is)() const, const 
                                                     : "{ … }";
     const Value* value = find(key);
     if (value == nullptr || (value->*is)()) return value;
+    if (!strict() && value->isNull()) return nullptr;  // `properties:` with nothing behind it.
+    if (!strict() && kind != "a list" && kind != "a map") {
+        problems_.verbose(value->where(),
+                          fmt::format("'{}' of {} is {}: it is not read", key, what_, value->typeName()));
+        return nullptr;
+    }
     problems_.error(value->where(), fmt::format("'{}' of {} must be {}, not {}", key, what_, wanted, value->typeName()),
                     fmt::format("write {}: {}", key, example));
     return nullptr;
@@ -37,11 +43,14 @@ const Value* KeyReader::array(const char* key) { return typed(key, &Value::isArr
 const Value* KeyReader::object(const char* key) { return typed(key, &Value::isObject, "a map"); }
 
 void KeyReader::finish() {
-    if (!strict()) return;
     for (const Member& member : object_.members()) {
         if (std::find(known_.begin(), known_.end(), member.key) != known_.end()) continue;
         SourceLoc where = member.keyLoc;
         where.length = std::max(1, static_cast<int>(member.key.size()));
+        if (!strict()) {
+            problems_.verbose(where, fmt::format("key '{}' in {} is not read", member.key, what_));
+            continue;
+        }
         problems_.error(where, fmt::format("unknown key '{}' in {}", member.key, what_),
                         didYouMean(member.key, known_, "keys"));
     }

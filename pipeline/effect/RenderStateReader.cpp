@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cctype>
 #include <span>
+#include <type_traits>
 
 #include "core/Text.h"
 
@@ -26,6 +27,10 @@ constexpr Named<CompareOp> kCompareOps[] = {{"never", CompareOp::Never},
                                             {"not_equal", CompareOp::NotEqual},
                                             {"greater_equal", CompareOp::GreaterEqual},
                                             {"always", CompareOp::Always}};
+constexpr Named<StencilOp> kStencilOps[] = {{"zero", StencilOp::Zero},          {"keep", StencilOp::Keep},
+                                            {"replace", StencilOp::Replace},    {"incr", StencilOp::Incr},
+                                            {"decr", StencilOp::Decr},          {"invert", StencilOp::Invert},
+                                            {"incr_wrap", StencilOp::IncrWrap}, {"decr_wrap", StencilOp::DecrWrap}};
 constexpr Named<CullMode> kCullModes[] = {
     {"none", CullMode::None}, {"front", CullMode::Front}, {"back", CullMode::Back}};
 constexpr Named<PolygonMode> kPolygonModes[] = {
@@ -64,8 +69,17 @@ std::string lower(std::string text) {
 
 template <class Enum, std::size_t N>
 void readEnum(KeyReader& reader, const char* key, const Named<Enum> (&names)[N], Enum& out) {
-    const Value* value = reader.string(key);
-    if (value == nullptr) return;
+    const Value* value = reader.find(key);
+    if (value == nullptr || value->isNull()) return;
+    if (!value->isString()) {
+        // Cocos' own files may hold the number behind the name: our values are Cocos' numbers, but for the topology.
+        const bool known = !reader.strict() && value->isInteger() && value->integer() >= 0 && value->integer() < int(N);
+        if (known && !std::is_same_v<Enum, Topology>)
+            out = names[value->integer()].value;
+        else
+            reader.string(key);
+        return;
+    }
     const std::string word = lower(value->string());
     std::vector<std::string> known;
     for (const auto& named : names) {
@@ -80,6 +94,10 @@ void readEnum(KeyReader& reader, const char* key, const Named<Enum> (&names)[N],
 }
 
 void readBool(KeyReader& reader, const char* key, bool& out) {
+    if (const Value* value = reader.find(key); value != nullptr && value->isNumber() && !reader.strict()) {
+        out = value->number() != 0;
+        return;
+    }
     if (const Value* value = reader.boolean(key)) out = value->boolean();
 }
 
@@ -128,10 +146,33 @@ void readRasterizer(KeyReader& reader, RenderState& state) {
     reader.finish();
 }
 
+void readMask(KeyReader& reader, const std::string& key, std::uint32_t& out) {
+    const Value* value = reader.number(key.c_str());
+    if (value != nullptr && value->isInteger()) out = static_cast<std::uint32_t>(value->integer() & 0xffffffff);
+}
+
+void readStencil(KeyReader& reader, const std::string& side, StencilFace& face) {
+    readBool(reader, ("stencilTest" + side).c_str(), face.test);
+    readEnum(reader, ("stencilFunc" + side).c_str(), kCompareOps, face.func);
+    readMask(reader, "stencilReadMask" + side, face.readMask);
+    readMask(reader, "stencilWriteMask" + side, face.writeMask);
+    readMask(reader, "stencilRef" + side, face.ref);
+    readEnum(reader, ("stencilFailOp" + side).c_str(), kStencilOps, face.failOp);
+    readEnum(reader, ("stencilZFailOp" + side).c_str(), kStencilOps, face.zFailOp);
+    readEnum(reader, ("stencilPassOp" + side).c_str(), kStencilOps, face.passOp);
+}
+
 void readDepthStencil(KeyReader& reader, RenderState& state) {
     readBool(reader, "depthTest", state.depthTest);
     readBool(reader, "depthWrite", state.depthWrite);
     readEnum(reader, "depthFunc", kCompareOps, state.depthFunc);
+    if (!reader.strict()) {
+        readStencil(reader, "", state.stencilFront);
+        state.stencilBack = state.stencilFront;
+        readStencil(reader, "Front", state.stencilFront);
+        readStencil(reader, "Back", state.stencilBack);
+        return reader.finish();
+    }
     // Without a suffix a key stands for both faces.
     for (const std::string side : {"", "Front", "Back"}) {
         expectBool(reader, ("stencilTest" + side).c_str(), false);
@@ -145,11 +186,25 @@ void readDepthStencil(KeyReader& reader, RenderState& state) {
     reader.finish();
 }
 
+/// "rgb": letters one after the other, as some of Cocos' files have them.
+bool readMaskLetters(const std::string& word, std::uint8_t& mask) {
+    std::uint8_t sum = 0;
+    for (const char c : word) {
+        const auto at = std::string_view("rgba").find(c);
+        if (at == std::string_view::npos) return false;
+        sum = static_cast<std::uint8_t>(sum | (1u << at));
+    }
+    mask = sum;
+    return !word.empty();
+}
+
 void readColorMask(KeyReader& reader, std::uint8_t& mask) {
     const Value* value = reader.find("blendColorMask");
     if (value == nullptr) return;
     if (value->isInteger() && value->integer() >= 0 && value->integer() <= 15)
         mask = static_cast<std::uint8_t>(value->integer());
+    else if (value->isString() && !reader.strict() && readMaskLetters(lower(value->string()), mask))
+        return;
     else if (value->isString())
         readEnum(reader, "blendColorMask", kColorMasks, mask);
     else
@@ -190,11 +245,24 @@ void readBlend(KeyReader& reader, RenderState& state) {
     reader.finish();
 }
 
+/// Cocos' other primitives (loops, adjacency, patches) are never drawn by its own effects.
+void readTopology(KeyReader& pass, Topology& out) {
+    const Value* value = pass.find("primitive");
+    const bool other = value != nullptr && !pass.strict() && value->isString() &&
+                       std::none_of(std::begin(kTopologies), std::end(kTopologies),
+                                    [&](const auto& named) { return lower(value->string()) == named.name; });
+    if (other)
+        pass.problems().warning(value->where(), fmt::format("primitive '{}' is not drawn by Crevice", value->string()),
+                                "the pass is read as one of triangles");
+    else
+        readEnum(pass, "primitive", kTopologies, out);
+}
+
 }  // namespace
 
 RenderState readRenderState(KeyReader& pass) {
     RenderState state;
-    readEnum(pass, "primitive", kTopologies, state.topology);
+    readTopology(pass, state.topology);
     const auto section = [&](const char* key, auto read) {
         const Value* object = pass.object(key);
         if (object == nullptr) return;
