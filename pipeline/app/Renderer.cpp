@@ -41,7 +41,8 @@ Renderer::Renderer(RendererOptions options)
       device_(DeviceOptions{.log = options_.log,
                             .device = options_.device,
                             .validate = options_.validate,
-                            .syncValidation = options_.validate}),
+                            .syncValidation = options_.validate,
+                            .faults = options_.faults}),
       effects_(options_.roots, options_.log, {.useDiskCache = options_.useCache}) {
     registerBuiltinStages(registry_);
 }

@@ -36,6 +36,7 @@ struct RendererOptions {
     bool defaultLight = true;  ///< A scene without lights gets a key light and ambient, with a note.
     AssetRoots roots = AssetRoots::standard();
     Log log{};
+    DeviceFaults faults{};  ///< For tests.
 };
 
 /// One picture to make.

@@ -66,6 +66,18 @@ void parseHeader(EXRHeader& header, std::span<const std::byte> bytes, const std:
     }
 }
 
+void checkSize(std::int64_t width, std::int64_t height, const std::string& name, const Limits& limits) {
+    const std::int64_t side = limits.maxImageSide;
+    if (width < 1 || height < 1) fail(name, fmt::format("its size is {} x {}", width, height));
+    if (width > side || height > side)
+        throw Error(fmt::format("the EXR '{}' has {} x {} pixels, the limit is {} a side", name, width, height, side),
+                    raiseLimit("image-side"));
+    if (std::uint64_t(width) * std::uint64_t(height) > limits.maxImagePixels)
+        throw Error(
+            fmt::format("the EXR '{}' has {} x {} pixels, the limit is {}", name, width, height, limits.maxImagePixels),
+            raiseLimit("image-pixels"));
+}
+
 /// Which component a channel is: the last part of its name, "diffuse.R" → 0; -1 for others.
 int componentOf(std::string_view name) {
     if (const std::size_t dot = name.rfind('.'); dot != std::string_view::npos) name.remove_prefix(dot + 1);
@@ -127,17 +139,14 @@ int exrColourChannels(std::span<const std::byte> bytes, const std::string& name)
     return last > 0 ? last : 3;
 }
 
-Image decodeExr(std::span<const std::byte> bytes, const std::string& name) {
+Image decodeExr(std::span<const std::byte> bytes, const std::string& name, const Limits& limits) {
     ParsedHeader parsed;
     parseHeader(parsed.header, bytes, name);
     const char* message = nullptr;
-    constexpr std::int64_t kMaxSide = 1 << 16;
     const EXRBox2i& window = parsed.header.data_window;
     const std::int64_t width = std::int64_t(window.max_x) - window.min_x + 1;
     const std::int64_t height = std::int64_t(window.max_y) - window.min_y + 1;
-    if (width < 1 || height < 1 || width > kMaxSide || height > kMaxSide) {
-        fail(name, fmt::format("its size {} x {} is not between 1 and {}", width, height, kMaxSide));
-    }
+    checkSize(width, height, name, limits);
     if (parsed.header.tiled) return decodeTiled(bytes, name);
     for (int c = 0; c < parsed.header.num_channels; ++c) {
         if (parsed.header.pixel_types[c] == TINYEXR_PIXELTYPE_UINT) fail(name, "it has integer channels");

@@ -12,7 +12,7 @@ namespace crevice {
 bool looksLikeExr(std::span<const std::byte> bytes);
 /// Scan lines or tiles, channels R, G, B, A or a single one as grey, to RGBA32F. `name` stands in messages. Throws
 /// Error.
-Image decodeExr(std::span<const std::byte> bytes, const std::string& name);
+Image decodeExr(std::span<const std::byte> bytes, const std::string& name, const Limits& limits = {});
 
 /// The last of R, G and B that is there, counted from 1; 3 for a single channel that is shown as grey.
 int exrColourChannels(std::span<const std::byte> bytes, const std::string& name);

@@ -42,9 +42,11 @@ std::string contentKey(const std::vector<StageSource>& sources, const BindingMap
         numbered = numbered && source.numbered;
     }
     for (const auto& [name, slot] : bindings) {
-        const bool named = !numbered && std::any_of(sources.begin(), sources.end(), [&](const StageSource& source) {
-            return source.text.find(name) != std::string::npos;
-        });
+        // clang 14 captures no structured bindings by themselves.
+        const auto mentions = [&word = name](const StageSource& source) {
+            return source.text.find(word) != std::string::npos;
+        };
+        const bool named = !numbered && std::any_of(sources.begin(), sources.end(), mentions);
         if (named) content += fmt::format("{}:{}.{}\n", name, slot.set, slot.binding);
     }
     return contentHash(content);

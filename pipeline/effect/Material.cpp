@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <limits>
 
 #include "core/Text.h"
 
@@ -152,7 +153,9 @@ void Material::setValue(const EffectProperty& property, const Value& value, Prob
     for (std::uint32_t i = 0; placed && i < place.components; ++i) {
         float number = static_cast<float>(component(value, i));
         if (property.linear && i < 3 && place.components >= 3) number = linearFromSrgb(number);
-        const auto integer = static_cast<std::int32_t>(component(value, i));
+        const auto integer =
+            static_cast<std::int32_t>(std::clamp(component(value, i), double(std::numeric_limits<std::int32_t>::min()),
+                                                 double(std::numeric_limits<std::int32_t>::max())));
         std::byte* out = blocks_[place.block].bytes.data() + place.offset + i * sizeof(float);
         std::memcpy(out, place.integer ? static_cast<const void*>(&integer) : &number, sizeof(float));
     }
@@ -186,8 +189,13 @@ bool Material::checkNumbers(const EffectProperty& property, const Value& value, 
     }
     for (std::uint32_t i = 0; i < countOf(value); ++i) {
         const double number = component(value, i);
-        if (std::isfinite(number) && number >= property.min && number <= property.max) continue;
         const SourceLoc& where = value.isNumber() ? value.where() : value.items()[i].where();
+        if (!(std::abs(number) <= double(std::numeric_limits<float>::max()))) {
+            problems.error(where, fmt::format("property '{}' is {}, more than a float holds", property.name, number),
+                           "give a number that a shader can compute with");
+            return false;
+        }
+        if (number >= property.min && number <= property.max) continue;
         problems.error(where, fmt::format("property '{}' is {}, outside its range", property.name, number),
                        fmt::format("give {} to {}", property.min, property.max));
         return false;

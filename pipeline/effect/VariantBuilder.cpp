@@ -88,7 +88,8 @@ std::vector<StageSource> makeStageSources(FlatPass flat, const EffectPass& pass,
     std::vector<std::string> known;
     for (const DefineInfo& info : infos) known.push_back(info.name);
     for (const auto& [name, value] : values) {
-        const auto info = std::find_if(infos.begin(), infos.end(), [&](const DefineInfo& i) { return i.name == name; });
+        const auto info =
+            std::find_if(infos.begin(), infos.end(), [&word = name](const DefineInfo& i) { return i.name == word; });
         if (info != infos.end()) {
             checkDefine(*info, value, request.where, problems);
         } else if (std::find(knownElsewhere.begin(), knownElsewhere.end(), name) == knownElsewhere.end()) {

@@ -104,7 +104,8 @@ void Commands::submitAndWait() {
     submit.commandBufferInfoCount = 1;
     submit.pCommandBufferInfos = &buffer;
     const VkFence fence = fence_.get();
-    VkResult result = vkQueueSubmit2(device_.queue(), 1, &submit, fence);
+    VkResult result = device_.nextSubmitFault();
+    if (result == VK_SUCCESS) result = vkQueueSubmit2(device_.queue(), 1, &submit, fence);
     if (result == VK_SUCCESS) {
         result = vkWaitForFences(device_.handle(), 1, &fence, VK_TRUE, std::numeric_limits<std::uint64_t>::max());
     }

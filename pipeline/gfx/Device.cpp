@@ -63,11 +63,11 @@ Function instanceFunction(VkInstance instance, const char* name) {
 
 }  // namespace
 
-Device::Device(const DeviceOptions& options) : log_(options.log) {
+Device::Device(const DeviceOptions& options) : log_(options.log), faults_(options.faults) {
     createInstance(options);
     pickPhysicalDevice(options.device);
     createDevice();
-    memory_ = std::make_unique<MemoryAllocator>(physical_, device_.get(), live_, options.failAllocation);
+    memory_ = std::make_unique<MemoryAllocator>(physical_, device_.get(), live_, faults_.failAllocation);
 }
 
 Device::~Device() {
@@ -109,7 +109,7 @@ void Device::createInstance(const DeviceOptions& options) {
 void Device::pickPhysicalDevice(const std::string& wanted) {
     const std::vector<VkPhysicalDevice> all = enumeratePhysicalDevices(instance_.get());
     std::vector<DeviceInfo> infos;
-    for (VkPhysicalDevice candidate : all) infos.push_back(describePhysicalDevice(candidate));
+    for (VkPhysicalDevice candidate : all) infos.push_back(describePhysicalDevice(candidate, faults_.missingFormat));
     const std::size_t chosen = chooseDevice(infos, wanted);
     physical_ = all[chosen];
     info_ = infos[chosen];
@@ -156,7 +156,7 @@ std::vector<DeviceInfo> Device::listDevices() {
     try {
         const Unique<VkInstance> instance = makeInstance({}, {}, nullptr);
         for (VkPhysicalDevice device : enumeratePhysicalDevices(instance.get())) {
-            infos.push_back(describePhysicalDevice(device));
+            infos.push_back(describePhysicalDevice(device, std::nullopt));
         }
     } catch (const RenderError&) {
         throw;
@@ -170,6 +170,18 @@ std::uint64_t Device::heapBytes() const { return memory_->heapBytes(); }
 std::uint64_t Device::allocatedBytes() const { return memory_->usedBytes(); }
 std::uint32_t Device::validationMessageCount() const { return messenger_->count(); }
 std::vector<std::string> Device::validationMessages() const { return messenger_->messages(); }
+void Device::setFaults(const DeviceFaults& faults) {
+    faults_ = faults;
+    submissions_ = 0;
+    memory_->failAt(faults.failAllocation);
+}
+
+VkResult Device::nextSubmitFault() {
+    const bool lost = faults_.loseDevice >= 0 && submissions_ >= faults_.loseDevice;
+    ++submissions_;
+    return lost ? VK_ERROR_DEVICE_LOST : VK_SUCCESS;
+}
+
 void Device::waitIdle() { VK_CALL(vkDeviceWaitIdle(device_.get())); }
 
 void Device::setObjectName(VkObjectType type, std::uint64_t handle, const std::string& name) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/Log.h"
+#include "gfx/DeviceFaults.h"
 #include "gfx/LiveObjects.h"
 #include "gfx/Memory.h"
 #include "gfx/Vk.h"
@@ -20,7 +21,7 @@ struct DeviceOptions {
     std::string device{};   ///< Index in listDevices() or part of a name; empty = discrete, else integrated, else CPU.
     bool validate = false;  ///< Needs the package vulkan-validationlayers.
     bool syncValidation = false;  ///< Also look for missing barriers; implies validate.
-    int failAllocation = -1;      ///< Tests: the allocation with this number (from 0) fails; -1 = never.
+    DeviceFaults faults{};        ///< For tests.
 };
 
 /// A GPU or CPU driver that the Vulkan loader found.
@@ -65,6 +66,8 @@ public:
     bool validates() const { return validates_; }
 
     void waitIdle();
+    /// Tests: from now on these faults, numbers counted anew. A device that was lost so works again.
+    void setFaults(const DeviceFaults& faults);
 
     // Below: for the other classes of gfx/.
     VkDevice handle() const { return device_.get(); }
@@ -73,6 +76,9 @@ public:
     std::uint32_t queueFamily() const { return queueFamily_; }
     VkPipelineCache pipelineCache() const { return pipelineCache_.get(); }
     MemoryAllocator& memory() { return *memory_; }
+    /// Called once per submission: VK_SUCCESS, or the fault that is due.
+    VkResult nextSubmitFault();
+    bool lacksFormat(Format format) const { return faults_.missingFormat == format; }
     const Log& log() const { return log_; }
     LiveObjects& live() { return live_; }
     /// Names an object in validation messages and captures.
@@ -90,6 +96,8 @@ private:
     void setObjectName(VkObjectType type, std::uint64_t handle, const std::string& name);
 
     const Log& log_;
+    DeviceFaults faults_;
+    int submissions_ = 0;
     bool validates_ = false;
     bool hasDebugUtils_ = false;
     bool robustImageAccess_ = false;

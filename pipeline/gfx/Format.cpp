@@ -30,6 +30,7 @@ constexpr std::array kFormats = {VK_FORMAT_R8_UNORM,
 static_assert(kFormats.size() == static_cast<std::size_t>(Format::D32F) + 1);
 
 VkFormatFeatureFlags featuresOf(const Device& device, Format format) {
+    if (device.lacksFormat(format)) return 0;
     VkFormatProperties properties{};
     vkGetPhysicalDeviceFormatProperties(device.physical(), toVk(format), &properties);
     return properties.optimalTilingFeatures;

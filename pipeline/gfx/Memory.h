@@ -67,6 +67,11 @@ public:
     /// Throws RenderError in words when the device has no memory left.
     Allocation allocate(const MemoryRequest& request);
 
+    /// Tests: the allocate() call with this number, counted from now, fails; -1 = never.
+    void failAt(int call) {
+        calls_ = 0;
+        failAt_ = call;
+    }
     std::uint64_t usedBytes() const { return used_; }
     std::uint64_t heapBytes() const;  ///< The largest device-local heap.
 

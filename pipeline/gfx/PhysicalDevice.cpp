@@ -26,7 +26,7 @@ const char* typeName(VkPhysicalDeviceType type) {
 }
 
 /// Formats that no frame of ours can do without; others are checked when a texture is made.
-std::vector<std::string> findMissingFormats(VkPhysicalDevice device) {
+std::vector<std::string> findMissingFormats(VkPhysicalDevice device, std::optional<Format> absent) {
     const auto needs = [](Format format, VkFormatFeatureFlags features, const char* words) {
         return std::tuple(format, features, words);
     };
@@ -40,14 +40,14 @@ std::vector<std::string> findMissingFormats(VkPhysicalDevice device) {
           needs(Format::D32F, depth, "sampled depth attachment")}) {
         VkFormatProperties properties{};
         vkGetPhysicalDeviceFormatProperties(device, toVk(format), &properties);
-        if ((properties.optimalTilingFeatures & features) != features) {
+        if (format == absent || (properties.optimalTilingFeatures & features) != features) {
             missing.push_back(fmt::format("'{}' as {}", formatInfo(format).name, words));
         }
     }
     return missing;
 }
 
-DeviceFacts gatherFacts(VkPhysicalDevice device, std::uint32_t apiVersion) {
+DeviceFacts gatherFacts(VkPhysicalDevice device, std::uint32_t apiVersion, std::optional<Format> absent) {
     DeviceFacts facts;
     facts.apiVersion = apiVersion;
     facts.graphicsComputeQueue = findQueue(device).has_value();
@@ -61,7 +61,7 @@ DeviceFacts gatherFacts(VkPhysicalDevice device, std::uint32_t apiVersion) {
     facts.maintenance4 = vulkan13.maintenance4 == VK_TRUE;
     facts.robustBufferAccess = core.features.robustBufferAccess == VK_TRUE;
     facts.storageImageExtendedFormats = core.features.shaderStorageImageExtendedFormats == VK_TRUE;
-    facts.missingFormats = findMissingFormats(device);
+    facts.missingFormats = findMissingFormats(device, absent);
     return facts;
 }
 
@@ -77,7 +77,7 @@ std::vector<VkPhysicalDevice> enumeratePhysicalDevices(VkInstance instance) {
     return devices;
 }
 
-DeviceInfo describePhysicalDevice(VkPhysicalDevice device) {
+DeviceInfo describePhysicalDevice(VkPhysicalDevice device, std::optional<Format> missing) {
     VkPhysicalDeviceProperties basic{};
     vkGetPhysicalDeviceProperties(device, &basic);
     DeviceInfo info;
@@ -92,7 +92,7 @@ DeviceInfo describePhysicalDevice(VkPhysicalDevice device) {
         vkGetPhysicalDeviceProperties2(device, &properties);
         info.driver = fmt::format("{}, {}", driver.driverName, driver.driverInfo);
     }
-    info.problem = describeProblem(gatherFacts(device, basic.apiVersion));
+    info.problem = describeProblem(gatherFacts(device, basic.apiVersion, missing));
     return info;
 }
 

@@ -13,7 +13,8 @@ namespace crevice {
 /// In the loader's order; empty when there is none.
 std::vector<VkPhysicalDevice> enumeratePhysicalDevices(VkInstance instance);
 
-DeviceInfo describePhysicalDevice(VkPhysicalDevice device);
+/// `missing`: a format to report as missing, for tests.
+DeviceInfo describePhysicalDevice(VkPhysicalDevice device, std::optional<Format> missing);
 
 struct QueueChoice {
     std::uint32_t family = 0;

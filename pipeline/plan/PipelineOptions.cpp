@@ -171,7 +171,8 @@ std::vector<OptionDesc> readOptions(const Value& document, const std::map<std::s
     if (const Value* all = document.find("options"))
         for (const Member& member : all->members()) readOption(member, options, problems);
     for (const auto& [name, text] : requested) {
-        const auto option = std::find_if(options.begin(), options.end(), [&](auto& o) { return o.name == name; });
+        const auto option =
+            std::find_if(options.begin(), options.end(), [&word = name](auto& o) { return o.name == word; });
         if (option != options.end()) {
             requestValue(*option, text, problems);
             continue;

@@ -9,20 +9,14 @@
 #include <string>
 #include <vector>
 
+#include "core/Limits.h"
 #include "core/Log.h"
 #include "scene/Scene.h"
 
 namespace crevice {
 
 /// What a scene file may ask for before it is refused.
-struct LoadLimits {
-    std::size_t maxFileBytes = std::size_t(2) << 30;  ///< Each file, and each decoded buffer.
-    std::size_t maxVertices = 100'000'000;            ///< Over all meshes; indices: six times as many.
-    std::size_t maxInstances = 1'000'000;
-    std::uint32_t maxImageSide = 16384;                ///< Pixels.
-    std::size_t maxImageBytes = std::size_t(4) << 30;  ///< Over all decoded images.
-    int maxNodeDepth = 256;
-};
+using LoadLimits = Limits;
 
 struct LoadOptions {
     const Log& log;  ///< Receives warnings and notes.

@@ -95,7 +95,7 @@ TEST(GfxMemory, EveryFailedAllocationIsAnErrorAndLeavesNothing) {
     const Log quiet(LogLevel::Error, [](LogLevel, std::string_view) {});
     int failures = 0;
     for (int at = 0;; ++at) {
-        Device device({.log = quiet, .validate = true, .failAllocation = at});
+        Device device({.log = quiet, .validate = true, .faults = {.failAllocation = at}});
         bool failed = false;
         try {
             makeThings(device);

@@ -21,6 +21,7 @@ void addStagesCommand(CLI::App& program, Action& action);
 void addEffectsCommand(CLI::App& program, Action& action);
 void addSchemaCommand(CLI::App& program, Action& action);
 void addInfoCommand(CLI::App& program, Action& action);
+void addLimitsCommand(CLI::App& program, Action& action);
 void addReferenceCommand(CLI::App& program, Action& action);
 void addCompareCommand(CLI::App& program, Action& action);
 void addBenchAoCommand(CLI::App& program, Action& action);

@@ -22,7 +22,7 @@ constexpr const char* kExamples =
 
 struct InfoOptions {
     std::string scene, device;
-    bool allowOutside = false;
+    SceneOptions loading;
     ConsoleOptions console;
 };
 
@@ -91,7 +91,7 @@ std::size_t countTriangles(const Scene& scene) {
 int printSceneInfo(const InfoOptions& options, const Log& log) {
     const AssetRoots roots = AssetRoots::standard();
     const SceneFile file = findScene(roots, options.scene);
-    Scene scene = loadSceneFile(file, roots, log, options.allowOutside);
+    Scene scene = loadSceneFile(file, roots, log, options.loading);
     const Aabb box = scene.bounds();
     const auto number = [](auto value) { return fmt::format("{}", value); };
     TextTable table;
@@ -126,7 +126,7 @@ void addInfoCommand(CLI::App& program, Action& action) {
     const auto options = std::make_shared<InfoOptions>();
     command->add_option("scene", options->scene, "Scene to describe")->type_name("SCENE");
     command->add_option("--device", options->device, "Device whose formats are shown")->type_name("NAME|INDEX");
-    command->add_flag("--allow-outside", options->allowOutside, "Let a .scene.json name files outside its folder");
+    addSceneOptions(*command, options->loading);
     addConsoleOptions(*command, options->console);
     command->footer(kExamples);
     command->callback([&action, options] {

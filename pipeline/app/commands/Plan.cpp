@@ -21,6 +21,7 @@ constexpr const char* kExamples =
 struct PlanOptions {
     std::string pipeline, scene, size = "1280x720";
     PipelineOptions pipelineOptions;
+    SceneOptions loading;
     ConsoleOptions console;
     bool dot = false;
 };
@@ -33,9 +34,9 @@ int runPlan(const PlanOptions& options) {
     EffectLibrary library(pipeline.roots(), log);
     FrameProgram program(pipeline.desc(), pipeline.classes().registry(), library, log,
                          {.width = size.x, .height = size.y});
-    const Scene scene = options.scene.empty()
-                            ? makeSampleScene()
-                            : loadSceneFile(findScene(pipeline.roots(), options.scene), pipeline.roots(), log);
+    const Scene scene = options.scene.empty() ? makeSampleScene()
+                                              : loadSceneFile(findScene(pipeline.roots(), options.scene),
+                                                              pipeline.roots(), log, options.loading);
     program.prepare(&scene);
     log.write(program.plan().notes);
     print(options.dot ? planDot(program.plan())
@@ -54,6 +55,7 @@ void addPlanCommand(CLI::App& program, Action& action) {
     command->add_option("--size", options->size, "Pixels of the frame")->type_name("WxH")->capture_default_str();
     command->add_flag("--dot", options->dot, "Print a graph for Graphviz");
     addPipelineOptions(*command, options->pipelineOptions);
+    addSceneOptions(*command, options->loading);
     addConsoleOptions(*command, options->console);
     command->footer(kExamples);
     command->callback([&action, options] { action = [options] { return runPlan(*options); }; });

@@ -30,6 +30,7 @@ void addCommands(CLI::App& program, Action& action) {
     addEffectsCommand(program, action);
     addSchemaCommand(program, action);
     addInfoCommand(program, action);
+    addLimitsCommand(program, action);
     addReferenceCommand(program, action);
     addCompareCommand(program, action);
     addBenchAoCommand(program, action);

@@ -47,7 +47,7 @@ Traced trace(const ReferenceOptions& options, ReferenceRequest& request) {
     const Log log = makeLog(options.console, progress);
     const AssetRoots roots = AssetRoots::standard();
     progress.show("loading …");
-    const Scene scene = loadSceneFile(findScene(roots, options.scene), roots, log, options.allowOutside);
+    const Scene scene = loadSceneFile(findScene(roots, options.scene), roots, log, options.loading);
     Traced traced{.camera = resolveCamera(request.view, scene)};
     const float automatic = automaticLength(scene.bounds());
     for (std::vector<WantedMap>* list : {&request.wanted, &request.radii}) {
@@ -172,7 +172,7 @@ void addReferenceCommand(CLI::App& program, Action& action) {
         ->allow_extra_args(false);
     command->add_option("--depth", options->depth, "Dump of viewDepth: pixels with another surface do not count")
         ->type_name("DEPTH.exr");
-    command->add_flag("--allow-outside", options->allowOutside, "Let the scene name files outside its folder");
+    addSceneOptions(*command, options->loading);
     addViewOptions(*command, options->view, false);
     addConsoleOptions(*command, options->console);
     command->footer(kExamples);

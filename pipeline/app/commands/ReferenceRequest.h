@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "app/commands/Console.h"
+#include "app/commands/SceneFiles.h"
 #include "app/commands/ViewOptions.h"
 #include "core/Image.h"
 #include "truth/AmbientReference.h"
@@ -17,7 +18,8 @@ struct ReferenceOptions {
     std::vector<std::string> radius, falloff, measure, heat;
     ViewOptions view;
     ConsoleOptions console;
-    bool allowOutside = false, noCache = false;
+    bool noCache = false;
+    SceneOptions loading;
 };
 
 /// A map to make: its radius as it was written, for the name of its file.

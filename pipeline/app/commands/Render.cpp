@@ -72,7 +72,7 @@ void RenderRun::loadScene(std::size_t index) {
     const RenderItem& item = job_.items[index];
     progress_.show(fmt::format("{}/{} {}: loading …", index + 1, job_.items.size(), item.scene.name));
     watch_.lap();
-    scene_ = loadSceneFile(item.scene, pipeline_.roots(), makeLog(options_.console, progress_), options_.allowOutside);
+    scene_ = loadSceneFile(item.scene, pipeline_.roots(), makeLog(options_.console, progress_), options_.loading);
     camera_ = chooseCamera(job_.view, scene_);
     timings_.loadMs += watch_.lap();
 }

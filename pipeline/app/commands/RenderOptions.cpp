@@ -117,7 +117,7 @@ void addRenderOptions(CLI::App& command, RenderOptions& options) {
     command.add_flag("--validate", options.validate, "Vulkan validation; any message is a failure");
     command.add_flag("--no-cache", options.noCache, "Compile all shaders anew");
     command.add_flag("--no-default-light", options.noDefaultLight, "Leave a scene without lights dark");
-    command.add_flag("--allow-outside", options.allowOutside, "Let a .scene.json name files outside its folder");
+    addSceneOptions(command, options.loading);
     addPipelineOptions(command, options.pipelineOptions);
     addViewOptions(command, options.view);
     addConsoleOptions(command, options.console);

@@ -20,7 +20,8 @@ struct RenderOptions {
     PipelineOptions pipelineOptions;
     ViewOptions view;
     ConsoleOptions console;
-    bool validate = false, noCache = false, noDefaultLight = false, allowOutside = false;
+    bool validate = false, noCache = false, noDefaultLight = false;
+    SceneOptions loading;
 };
 void addRenderOptions(CLI::App& command, RenderOptions& options);
 

@@ -4,6 +4,7 @@
 #include <system_error>
 
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include "core/Error.h"
 #include "core/Text.h"
@@ -34,8 +35,27 @@ SceneFile findScene(const AssetRoots& roots, const std::string& argument) {
                     "; files end in .gltf, .glb or .scene.json");
 }
 
-Scene loadSceneFile(const SceneFile& file, const AssetRoots& roots, const Log& log, bool allowOutside) {
-    return loadScene(file.path, {.log = log, .allowedRoots = roots.roots(), .allowOutside = allowOutside});
+void addSceneOptions(CLI::App& command, SceneOptions& options) {
+    command
+        .add_option("--allow-path", options.allowedPaths, "Folder tree that the scene may read as well (repeatable)")
+        ->type_name("DIR")
+        ->allow_extra_args(false);
+    command.add_flag("--allow-outside", options.allowOutside, "Let a .scene.json name a glTF outside its folder");
+    command.add_option("--limit", options.limits, "Raise or lower a limit of `crevice limits` (repeatable)")
+        ->type_name("NAME=VALUE")
+        ->allow_extra_args(false);
+}
+
+Scene loadSceneFile(const SceneFile& file, const AssetRoots& roots, const Log& log, const SceneOptions& options) {
+    LoadOptions load{.log = log, .allowedRoots = roots.roots(), .allowOutside = options.allowOutside};
+    for (const std::string& path : options.allowedPaths) {
+        std::error_code failed;
+        if (!std::filesystem::is_directory(path, failed))
+            throw Error(fmt::format("--allow-path: '{}' is not a folder", path), "name a folder that exists");
+        load.allowedRoots.emplace_back(path);
+    }
+    for (const std::string& limit : options.limits) setLimit(load.limits, limit);
+    return loadScene(file.path, load);
 }
 
 Scene makeSampleScene() {

@@ -3,12 +3,25 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "core/Files.h"
 #include "core/Log.h"
 #include "scene/Scene.h"
 
+namespace CLI {
+class App;
+}
+
 namespace crevice {
+
+/// What commands that read scenes let them do.
+struct SceneOptions {
+    bool allowOutside = false;              ///< --allow-outside
+    std::vector<std::string> allowedPaths;  ///< --allow-path DIR
+    std::vector<std::string> limits;        ///< --limit NAME=VALUE
+};
+void addSceneOptions(CLI::App& command, SceneOptions& options);
 
 struct SceneFile {
     std::filesystem::path path;
@@ -17,7 +30,8 @@ struct SceneFile {
 
 /// Throws Error with near names when it is neither a scene file nor the name of a shipped scene.
 SceneFile findScene(const AssetRoots& roots, const std::string& argument);
-Scene loadSceneFile(const SceneFile& file, const AssetRoots& roots, const Log& log, bool allowOutside = false);
+/// Throws Error, also for an --allow-path that is no folder and a --limit that does not exist.
+Scene loadSceneFile(const SceneFile& file, const AssetRoots& roots, const Log& log, const SceneOptions& options = {});
 
 /// A box with a plain material: what pipelines are checked with when no scene is given, so that the effects that draw
 /// scenes are compiled too.

@@ -34,6 +34,7 @@ struct SheetOptions {
     std::string out, columns, device, size = "480x270", background = "#3c3e42";
     PipelineOptions pipelineOptions;
     ConsoleOptions console;
+    SceneOptions loading;
     bool noDefaultLight = false;
 };
 
@@ -113,7 +114,7 @@ int runSheet(const SheetOptions& options) {
     Image sheet = makePaper(layout.size());
     for (std::uint32_t i = 0; i < scenes.size(); ++i) {
         progress.show(fmt::format("{}/{} {} …", i + 1, scenes.size(), scenes[i].name));
-        renderer.setScene(loadSceneFile(scenes[i], pipeline.roots(), renderer.log()));
+        renderer.setScene(loadSceneFile(scenes[i], pipeline.roots(), renderer.log(), options.loading));
         placeTile(sheet, layout, i, renderer.render(view), scenes[i].name);
     }
     progress.clear();
@@ -142,6 +143,7 @@ void addSheetCommand(CLI::App& program, Action& action) {
     command->add_option("--device", options->device, "Device to use: see `crevice info`")->type_name("NAME|INDEX");
     command->add_flag("--no-default-light", options->noDefaultLight, "Leave scenes without lights dark");
     addPipelineOptions(*command, options->pipelineOptions);
+    addSceneOptions(*command, options->loading);
     addConsoleOptions(*command, options->console);
     command->footer(kExamples);
     command->callback([&action, options] { action = [options] { return runSheet(*options); }; });

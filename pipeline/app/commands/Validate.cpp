@@ -22,6 +22,7 @@ struct ValidateOptions {
     std::vector<std::string> pipelines;
     std::string scene;
     PipelineOptions pipelineOptions;
+    SceneOptions loading;
     ConsoleOptions console;
     bool noCache = false;
 };
@@ -30,9 +31,9 @@ void validatePipeline(const std::string& name, const ValidateOptions& options, c
     const PipelineChoice pipeline(name, options.pipelineOptions);
     EffectLibrary library(pipeline.roots(), log, {.useDiskCache = !options.noCache});
     FrameProgram program(pipeline.desc(), pipeline.classes().registry(), library, log, {});
-    const Scene scene = options.scene.empty()
-                            ? makeSampleScene()
-                            : loadSceneFile(findScene(pipeline.roots(), options.scene), pipeline.roots(), log);
+    const Scene scene = options.scene.empty() ? makeSampleScene()
+                                              : loadSceneFile(findScene(pipeline.roots(), options.scene),
+                                                              pipeline.roots(), log, options.loading);
     program.prepare(&scene);
     log.write(program.globals().notes());
     log.write(program.plan().notes);
@@ -71,6 +72,7 @@ void addValidateCommand(CLI::App& program, Action& action) {
         ->type_name("SCENE");
     command->add_flag("--no-cache", options->noCache, "Compile all shaders anew");
     addPipelineOptions(*command, options->pipelineOptions);
+    addSceneOptions(*command, options->loading);
     addConsoleOptions(*command, options->console);
     command->footer(kExamples);
     command->callback([&action, options] { action = [options] { return runValidate(*options); }; });
