@@ -1,72 +1,78 @@
-// EXR through tinyexr: full floats, zip compression.
+// EXR through OpenEXR, which is made for hostile files: full floats, zip compression.
 #include "core/Exr.h"
 
 #include <algorithm>
 #include <array>
 #include <cassert>
-#include <cstdlib>
 #include <cstring>
-#include <limits>
-#include <memory>
+#include <iterator>
+#include <stdexcept>
 #include <string_view>
 
+#include <ImfChannelList.h>
+#include <ImfFrameBuffer.h>
+#include <ImfHeader.h>
+#include <ImfIO.h>
+#include <ImfInputFile.h>
+#include <ImfOutputFile.h>
+#include <ImfVersion.h>
 #include <fmt/format.h>
-#include <tinyexr.h>
 
 #include "core/Error.h"
 
 namespace crevice {
 namespace {
 
-/// A header whose parts tinyexr allocated.
-struct ParsedHeader {
-    EXRHeader header;
-    ParsedHeader() { InitEXRHeader(&header); }
-    ParsedHeader(const ParsedHeader&) = delete;
-    ParsedHeader& operator=(const ParsedHeader&) = delete;
-    ~ParsedHeader() { FreeEXRHeader(&header); }
+constexpr int kThreads = 0;  // besides the caller's
+constexpr std::size_t kMaxChannels = 64;
+
+/// Bytes as a file to OpenEXR, which reports its own failures and ours alike by exceptions.
+class BytesIn final : public Imf::IStream {
+public:
+    BytesIn(std::span<const std::byte> bytes, const std::string& name) : IStream(name.c_str()), bytes_(bytes) {}
+    bool read(char to[], int count) override {
+        if (count < 0 || std::size_t(count) > bytes_.size() - at_) throw std::runtime_error("it ends too early");
+        std::memcpy(to, bytes_.data() + at_, std::size_t(count));
+        at_ += std::size_t(count);
+        return at_ < bytes_.size();
+    }
+    std::uint64_t tellg() override { return at_; }
+    void seekg(std::uint64_t position) override {
+        if (position > bytes_.size()) throw std::runtime_error("it ends too early");
+        at_ = position;
+    }
+
+private:
+    std::span<const std::byte> bytes_;
+    std::size_t at_ = 0;
 };
 
-/// An image whose planes tinyexr allocated.
-struct LoadedImage {
-    EXRImage image;
-    LoadedImage() { InitEXRImage(&image); }
-    LoadedImage(const LoadedImage&) = delete;
-    LoadedImage& operator=(const LoadedImage&) = delete;
-    ~LoadedImage() { FreeEXRImage(&image); }
+class BytesOut final : public Imf::OStream {
+public:
+    BytesOut() : OStream("memory") {}
+    void write(const char from[], int count) override {
+        const std::size_t end = at_ + std::size_t(count);
+        if (end > bytes.size()) bytes.resize(end);
+        std::memcpy(bytes.data() + at_, from, std::size_t(count));
+        at_ = end;
+    }
+    std::uint64_t tellp() override { return at_; }
+    void seekp(std::uint64_t position) override { at_ = position; }
+
+    std::vector<std::byte> bytes;
+
+private:
+    std::size_t at_ = 0;
 };
-
-/// Takes over tinyexr's text.
-std::string takeMessage(const char* message) {
-    if (!message) return "the data is damaged";
-    std::string text = message;
-    FreeEXRErrorMessage(message);
-    while (!text.empty() && (text.back() == '\n' || text.back() == '.')) text.pop_back();
-    return text;
-}
-
-const unsigned char* asChars(std::span<const std::byte> bytes) {
-    return reinterpret_cast<const unsigned char*>(bytes.data());
-}
 
 [[noreturn]] void fail(const std::string& name, const std::string& reason) {
     throw Error(fmt::format("cannot read '{}' as EXR: {}", name, reason),
                 "write it again as single-part EXR with channels R, G, B, A");
 }
 
-void parseHeader(EXRHeader& header, std::span<const std::byte> bytes, const std::string& name) {
-    EXRVersion version;
-    if (ParseEXRVersionFromMemory(&version, asChars(bytes), bytes.size()) != TINYEXR_SUCCESS) {
-        fail(name, "its header is damaged");
-    }
-    if (version.multipart || version.non_image) fail(name, "it has several parts or deep pixels");
-    const char* message = nullptr;
-    if (ParseEXRHeaderFromMemory(&header, &version, asChars(bytes), bytes.size(), &message) != TINYEXR_SUCCESS) {
-        fail(name, takeMessage(message));
-    }
-}
-
-void checkSize(std::int64_t width, std::int64_t height, const std::string& name, const Limits& limits) {
+ExrSize checkSize(const Imath::Box2i& window, const std::string& name, const Limits& limits) {
+    const std::int64_t width = std::int64_t(window.max.x) - window.min.x + 1;
+    const std::int64_t height = std::int64_t(window.max.y) - window.min.y + 1;
     const std::int64_t side = limits.maxImageSide;
     if (width < 1 || height < 1) fail(name, fmt::format("its size is {} x {}", width, height));
     if (width > side || height > side)
@@ -76,6 +82,45 @@ void checkSize(std::int64_t width, std::int64_t height, const std::string& name,
         throw Error(
             fmt::format("the EXR '{}' has {} x {} pixels, the limit is {}", name, width, height, limits.maxImagePixels),
             raiseLimit("image-pixels"));
+    return {static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height)};
+}
+
+std::size_t countChannels(const Imf::ChannelList& channels) {
+    return static_cast<std::size_t>(std::distance(channels.begin(), channels.end()));
+}
+
+/// Runs `read`; whatever OpenEXR throws becomes an Error.
+template <class Read>
+auto inOurWords(const std::string& name, Read read) {
+    try {
+        return read();
+    } catch (const Error&) {
+        throw;
+    } catch (const std::exception& error) {
+        std::string reason = error.what();
+        while (!reason.empty() && (reason.back() == '\n' || reason.back() == '.')) reason.pop_back();
+        fail(name, reason);
+    }
+}
+
+/// Read on its own and judged before OpenEXR makes room for lines and tiles. Layout: magic number, version and flags,
+/// attributes ("OpenEXR File Layout").
+Imf::Header readHeader(std::span<const std::byte> bytes, const std::string& name, const Limits& limits) {
+    constexpr std::size_t kAttributes = 8;
+    std::int32_t version = 0;
+    if (bytes.size() < kAttributes) fail(name, "its header is damaged");
+    std::memcpy(&version, bytes.data() + 4, sizeof version);
+    if (Imf::isMultiPart(version) || Imf::isNonImage(version)) fail(name, "it has several parts or deep pixels");
+    return inOurWords(name, [&] {
+        BytesIn stream(bytes, name);
+        stream.seekg(kAttributes);
+        Imf::Header header;
+        header.readFrom(stream, version);
+        checkSize(header.dataWindow(), name, limits);
+        if (countChannels(header.channels()) > kMaxChannels)
+            fail(name, fmt::format("it has more than {} channels", kMaxChannels));
+        return header;
+    });
 }
 
 /// Which component a channel is: the last part of its name, "diffuse.R" → 0; -1 for others.
@@ -85,40 +130,28 @@ int componentOf(std::string_view name) {
     return name.size() == 1 ? static_cast<int>(kComponents.find(name.front())) : -1;
 }
 
-/// Planes to interleaved pixels; a single channel that is no colour is shown as grey.
-Image interleave(const EXRHeader& header, const EXRImage& planes) {
-    Image result(static_cast<std::uint32_t>(planes.width), static_cast<std::uint32_t>(planes.height), Format::RGBA32F);
-    const std::size_t count = std::size_t(result.width) * result.height;
-    std::vector<glm::vec4> pixels(count, glm::vec4(0, 0, 0, 1));
-    for (int c = 0; c < planes.num_channels; ++c) {
-        const auto* plane = reinterpret_cast<const float*>(planes.images[c]);
-        const int component = componentOf(header.channels[c].name);
-        const bool grey = component < 0 && planes.num_channels == 1;
-        if (component < 0 && !grey) continue;
-        for (std::size_t i = 0; i < count; ++i) {
-            if (grey) {
-                pixels[i] = {plane[i], plane[i], plane[i], 1.0f};
-            } else {
-                pixels[i][component] = plane[i];
-            }
-        }
+/// Colours go where they belong in RGBA pixels; a single channel that is no colour goes to red.
+Imf::FrameBuffer placeChannels(const Imf::Header& header, ExrSize size, const std::string& name,
+                               std::vector<glm::vec4>& pixels) {
+    const Imf::ChannelList& channels = header.channels();
+    const Imath::V2i corner = header.dataWindow().min;
+    constexpr std::size_t kPixel = sizeof(glm::vec4);
+    const bool single = countChannels(channels) == 1;
+    Imf::FrameBuffer buffer;
+    for (auto channel = channels.begin(); channel != channels.end(); ++channel) {
+        const Imf::Channel& info = channel.channel();
+        const int component = componentOf(channel.name());
+        if (component < 0 && !single) continue;
+        if (info.type == Imf::UINT) fail(name, "it has integer channels");
+        if (info.xSampling != 1 || info.ySampling != 1) fail(name, "its channels have fewer pixels than the image");
+        // OpenEXR counts pixels from the data window's corner, wherever that lies.
+        const auto* base =
+            reinterpret_cast<const char*>(pixels.data()) + std::size_t(std::max(component, 0)) * sizeof(float);
+        buffer.insert(channel.name(),
+                      Imf::Slice::Make(Imf::FLOAT, base, corner, size.width, size.height, kPixel, kPixel * size.width));
     }
-    std::memcpy(result.pixels.data(), pixels.data(), result.pixels.size());
-    return result;
-}
-
-/// Tiles are put together by tinyexr itself, which knows RGB(A) and single channels.
-Image decodeTiled(std::span<const std::byte> bytes, const std::string& name) {
-    float* rgba = nullptr;
-    int width = 0;
-    int height = 0;
-    const char* message = nullptr;
-    const int code = LoadEXRFromMemory(&rgba, &width, &height, asChars(bytes), bytes.size(), &message);
-    const std::unique_ptr<float, decltype(&std::free)> owner(rgba, &std::free);
-    if (code != TINYEXR_SUCCESS) fail(name, takeMessage(message));
-    Image result(static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height), Format::RGBA32F);
-    std::memcpy(result.pixels.data(), rgba, result.pixels.size());
-    return result;
+    if (buffer.begin() == buffer.end()) fail(name, "it has no channel R, G, B or A");
+    return buffer;
 }
 
 }  // namespace
@@ -128,80 +161,67 @@ bool looksLikeExr(std::span<const std::byte> bytes) {
     return bytes.size() >= kMagic.size() && std::memcmp(bytes.data(), kMagic.data(), kMagic.size()) == 0;
 }
 
+ExrSize exrSize(std::span<const std::byte> bytes, const std::string& name, const Limits& limits) {
+    return checkSize(readHeader(bytes, name, limits).dataWindow(), name, limits);
+}
+
 int exrColourChannels(std::span<const std::byte> bytes, const std::string& name) {
-    ParsedHeader parsed;
-    parseHeader(parsed.header, bytes, name);
+    const Imf::Header header = readHeader(bytes, name, {});
     int last = 0;
-    for (int c = 0; c < parsed.header.num_channels; ++c) {
-        const int component = componentOf(parsed.header.channels[c].name);
+    for (auto channel = header.channels().begin(); channel != header.channels().end(); ++channel) {
+        const int component = componentOf(channel.name());
         if (component < 3) last = std::max(last, component + 1);
     }
     return last > 0 ? last : 3;
 }
 
 Image decodeExr(std::span<const std::byte> bytes, const std::string& name, const Limits& limits) {
-    ParsedHeader parsed;
-    parseHeader(parsed.header, bytes, name);
-    const char* message = nullptr;
-    const EXRBox2i& window = parsed.header.data_window;
-    const std::int64_t width = std::int64_t(window.max_x) - window.min_x + 1;
-    const std::int64_t height = std::int64_t(window.max_y) - window.min_y + 1;
-    checkSize(width, height, name, limits);
-    if (parsed.header.tiled) return decodeTiled(bytes, name);
-    for (int c = 0; c < parsed.header.num_channels; ++c) {
-        if (parsed.header.pixel_types[c] == TINYEXR_PIXELTYPE_UINT) fail(name, "it has integer channels");
-        parsed.header.requested_pixel_types[c] = TINYEXR_PIXELTYPE_FLOAT;
-    }
-    LoadedImage loaded;
-    const int code = LoadEXRImageFromMemory(&loaded.image, &parsed.header, asChars(bytes), bytes.size(), &message);
-    if (code != TINYEXR_SUCCESS) {
-        InitEXRImage(
-            &loaded.image);  // tinyexr 1.0.1 has freed the list of planes (not the planes: a leak) and left its pointer
-        fail(name, takeMessage(message));
-    }
-    if (!loaded.image.images) fail(name, "it has no scan lines");
-    return interleave(parsed.header, loaded.image);
+    const ExrSize size = exrSize(bytes, name, limits);
+    return inOurWords(name, [&] {
+        BytesIn stream(bytes, name);
+        Imf::InputFile file(stream, kThreads);
+        std::vector<glm::vec4> pixels(std::size_t(size.width) * size.height, glm::vec4(0, 0, 0, 1));
+        file.setFrameBuffer(placeChannels(file.header(), size, name, pixels));
+        const Imath::Box2i window = file.header().dataWindow();
+        file.readPixels(window.min.y, window.max.y);
+        const Imf::ChannelList& channels = file.header().channels();
+        if (countChannels(channels) == 1 && componentOf(channels.begin().name()) < 0)
+            for (glm::vec4& pixel : pixels) pixel = {pixel.r, pixel.r, pixel.r, 1.0f};
+        Image image(size.width, size.height, Format::RGBA32F);
+        std::memcpy(image.pixels.data(), pixels.data(), image.pixels.size());
+        return image;
+    });
 }
 
-std::vector<std::byte> encodeExr(const Image& image) {
+std::vector<std::byte> encodeExr(const Image& image) try {
     assert(image.width > 0 && image.height > 0);
     const auto channels = static_cast<std::size_t>(formatInfo(image.format).channels);
     const std::size_t count = std::size_t(image.width) * image.height;
     const auto stride = static_cast<std::size_t>(formatInfo(image.format).bytesPerPixel);
-    std::vector<std::vector<float>> planes(channels, std::vector<float>(count));
+    std::vector<float> values(count * channels);
     for (std::size_t i = 0; i < count; ++i) {
         const glm::vec4 value = decodePixel(image.format, image.pixels.data() + i * stride);
-        // Channels are stored in the order of their names: A, B, G, R.
-        for (std::size_t c = 0; c < channels; ++c) planes[channels - 1 - c][i] = value[static_cast<int>(c)];
+        for (std::size_t c = 0; c < channels; ++c) values[i * channels + c] = value[static_cast<int>(c)];
     }
-    std::vector<unsigned char*> pointers;
-    for (std::vector<float>& plane : planes) pointers.push_back(reinterpret_cast<unsigned char*>(plane.data()));
-    std::vector<EXRChannelInfo> infos(channels);
-    std::vector<int> types(channels, TINYEXR_PIXELTYPE_FLOAT);
-    constexpr std::string_view kComponents = "RGBA";
-    for (std::size_t c = 0; c < channels; ++c) infos[c].name[0] = kComponents[channels - 1 - c];
-
-    EXRHeader header;  // points into the vectors above, so it is not freed by tinyexr
-    InitEXRHeader(&header);
-    header.num_channels = static_cast<int>(channels);
-    header.channels = infos.data();
-    header.pixel_types = types.data();
-    header.requested_pixel_types = types.data();
-    header.compression_type = TINYEXR_COMPRESSIONTYPE_ZIP;
-    EXRImage exr;
-    InitEXRImage(&exr);
-    exr.num_channels = static_cast<int>(channels);
-    exr.images = pointers.data();
-    exr.width = static_cast<int>(image.width);
-    exr.height = static_cast<int>(image.height);
-
-    unsigned char* data = nullptr;
-    const char* message = nullptr;
-    const std::size_t size = SaveEXRImageToMemory(&exr, &header, &data, &message);
-    const std::unique_ptr<unsigned char, decltype(&std::free)> owner(data, &std::free);
-    if (size == 0) throw RenderError("writing an EXR failed: " + takeMessage(message));
-    const auto* begin = reinterpret_cast<const std::byte*>(data);
-    return {begin, begin + size};
+    Imf::Header header(static_cast<int>(image.width), static_cast<int>(image.height));
+    header.compression() = Imf::ZIP_COMPRESSION;
+    Imf::FrameBuffer buffer;
+    constexpr std::array kNames = {"R", "G", "B", "A"};
+    const std::size_t step = channels * sizeof(float);
+    for (std::size_t c = 0; c < channels; ++c) {
+        header.channels().insert(kNames[c], Imf::Channel(Imf::FLOAT));
+        buffer.insert(kNames[c],
+                      Imf::Slice(Imf::FLOAT, reinterpret_cast<char*>(values.data() + c), step, step * image.width));
+    }
+    BytesOut stream;
+    {
+        Imf::OutputFile file(stream, header, kThreads);
+        file.setFrameBuffer(buffer);
+        file.writePixels(static_cast<int>(image.height));
+    }
+    return std::move(stream.bytes);
+} catch (const std::exception& error) {
+    throw RenderError(fmt::format("writing an EXR failed: {}", error.what()));
 }
 
 }  // namespace crevice

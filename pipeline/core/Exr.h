@@ -6,10 +6,18 @@
 #include <string>
 
 #include "core/Image.h"
+#include "core/Limits.h"
 
 namespace crevice {
 
 bool looksLikeExr(std::span<const std::byte> bytes);
+
+struct ExrSize {
+    std::uint32_t width = 0, height = 0;
+};
+/// Of the data window, from the header alone. Throws Error, also when it is beyond the limits.
+ExrSize exrSize(std::span<const std::byte> bytes, const std::string& name, const Limits& limits = {});
+
 /// Scan lines or tiles, channels R, G, B, A or a single one as grey, to RGBA32F. `name` stands in messages. Throws
 /// Error.
 Image decodeExr(std::span<const std::byte> bytes, const std::string& name, const Limits& limits = {});

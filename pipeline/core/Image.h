@@ -8,9 +8,10 @@
 #include <glm/glm.hpp>
 
 #include "core/Format.h"
-#include "core/Limits.h"
 
 namespace crevice {
+
+struct Limits;
 
 /// Rows top to bottom, tightly packed.
 struct Image {
@@ -44,7 +45,8 @@ std::vector<std::byte> encodePng(const Image& image);
 /// EXR bytes: full float channels (R, RG, RGB(A)), zip.
 std::vector<std::byte> encodeExr(const Image& image);
 /// Reads PNG, JPEG, WebP (8/16 bit → RGBA8) or EXR (→ RGBA32F) by content. Throws Error.
-Image readImage(const std::filesystem::path& path, const Limits& limits = {});
+Image readImage(const std::filesystem::path& path);
+Image readImage(const std::filesystem::path& path, const Limits& limits);
 /// Chooses PNG or EXR by extension and writes aside, then renames. Throws Error for another extension.
 void writeImage(const std::filesystem::path& path, const Image& image, PngMapping mapping = PngMapping::Clamp,
                 float far = 1.0f);

@@ -19,6 +19,8 @@ std::string lowerCaseEnding(const std::filesystem::path& path) {
 
 }  // namespace
 
+Image readImage(const std::filesystem::path& path) { return readImage(path, Limits{}); }
+
 Image readImage(const std::filesystem::path& path, const Limits& limits) {
     const std::vector<std::byte> bytes = readBytes(path, limits.maxFileBytes);
     if (readPictureHeader(bytes)) return decodePicture(bytes, path.string(), limits);

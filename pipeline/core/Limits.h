@@ -1,4 +1,4 @@
-// How much an input may ask for before it is refused: one list of limits, for code, `--limit` and the documents.
+// How much a scene may ask for before it is refused: one list of limits, for code, `--limit` and the documents.
 #pragma once
 
 #include <cstddef>
@@ -8,11 +8,11 @@
 
 namespace crevice {
 
-/// Memory stays bounded because everything an input can make grow has its line here. All counts are of one command.
+/// Memory stays bounded because everything a scene can make grow has its line here. (Documents of pipelines and effects
+/// have fixed limits: DocumentLimits, IncludeLimits.)
 struct Limits {
     std::size_t maxFileBytes = std::size_t(2) << 30;
-    std::size_t maxDocumentBytes = std::size_t(64) << 20;
-    std::size_t maxDocumentValues = 1'000'000;
+    std::size_t maxDocumentValues = 8'000'000;
     int maxDocumentDepth = 200;
     std::size_t maxVertices = 100'000'000;
     std::size_t maxInstances = 1'000'000;
@@ -20,9 +20,6 @@ struct Limits {
     std::uint32_t maxImageSide = 16384;
     std::size_t maxImagePixels = std::size_t(1) << 28;
     std::size_t maxImageBytes = std::size_t(4) << 30;
-    std::size_t maxIncludes = 1000;
-    std::size_t maxIncludeDepth = 64;
-    std::size_t maxIncludeBytes = std::size_t(16) << 20;
 };
 
 /// One limit as people see it.
@@ -36,9 +33,8 @@ struct LimitInfo {
 template <class AnyLimits, class Visit>
 void visitLimits(AnyLimits& limits, Visit visit) {
     visit(limits.maxFileBytes, LimitInfo{"file-bytes", "bytes", "Each file, and all buffers of a scene together"});
-    visit(limits.maxDocumentBytes, LimitInfo{"document-bytes", "bytes", "Text of a JSON, YAML, effect or chunk file"});
-    visit(limits.maxDocumentValues, LimitInfo{"document-values", "values", "Values in a JSON or YAML document"});
-    visit(limits.maxDocumentDepth, LimitInfo{"document-depth", "levels", "Nesting of a JSON or YAML document"});
+    visit(limits.maxDocumentValues, LimitInfo{"document-values", "values", "Values in the JSON of a scene"});
+    visit(limits.maxDocumentDepth, LimitInfo{"document-depth", "levels", "Nesting of the JSON of a scene"});
     visit(limits.maxVertices,
           LimitInfo{"vertices", "vertices", "Over all meshes of a scene; indices: six times as many"});
     visit(limits.maxInstances, LimitInfo{"instances", "instances", "Meshes that a scene shows"});
@@ -46,9 +42,6 @@ void visitLimits(AnyLimits& limits, Visit visit) {
     visit(limits.maxImageSide, LimitInfo{"image-side", "pixels", "Width and height of a picture that is read"});
     visit(limits.maxImagePixels, LimitInfo{"image-pixels", "pixels", "Each picture that is read"});
     visit(limits.maxImageBytes, LimitInfo{"image-bytes", "bytes", "All decoded pictures of a scene together"});
-    visit(limits.maxIncludes, LimitInfo{"includes", "includes", "#include lines that one shader stage follows"});
-    visit(limits.maxIncludeDepth, LimitInfo{"include-depth", "levels", "Nesting of includes"});
-    visit(limits.maxIncludeBytes, LimitInfo{"include-bytes", "bytes", "Text of one shader stage, includes put in"});
 }
 
 /// Sets one limit from "NAME=VALUE". VALUE is a whole number from 1, with K, M or G behind it for thousands, millions
