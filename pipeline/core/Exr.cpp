@@ -5,7 +5,6 @@
 #include <array>
 #include <cassert>
 #include <cstring>
-#include <iterator>
 #include <stdexcept>
 #include <string_view>
 
@@ -86,7 +85,9 @@ ExrSize checkSize(const Imath::Box2i& window, const std::string& name, const Lim
 }
 
 std::size_t countChannels(const Imf::ChannelList& channels) {
-    return static_cast<std::size_t>(std::distance(channels.begin(), channels.end()));
+    std::size_t count = 0;
+    for (auto channel = channels.begin(); channel != channels.end(); ++channel) ++count;
+    return count;
 }
 
 /// Runs `read`; whatever OpenEXR throws becomes an Error.

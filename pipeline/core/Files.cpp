@@ -83,6 +83,7 @@ Buffer readWhole(const fs::path& path, std::size_t maxBytes) {
     if (code == ENOENT) help = "make the folder first, or write elsewhere";
     if (code == EACCES || code == EPERM || code == EROFS) help = "choose a folder that may be written";
     if (code == ENOSPC || code == EDQUOT) help = "free some space, or write elsewhere";
+    if (code == EFBIG) help = "raise the limit with `ulimit -f`, or write elsewhere";
     if (code == EISDIR) help = "name a file, not a folder";
     throw RenderError(fmt::format("cannot write '{}': {}", path.string(), systemReason(code)), std::move(help));
 }

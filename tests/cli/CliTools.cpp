@@ -132,6 +132,21 @@ Outcome CliTest::runInterrupted(const std::string& arguments) {
     return outcome;
 }
 
+void CliTest::runKilled(const std::string& arguments, int delayMs) {
+    const std::size_t before = files().size();
+    const int null = ::open("/dev/null", O_WRONLY | O_CLOEXEC);
+    const pid_t child = spawn(splitWords(arguments), folder_, null, null);
+    ::close(null);
+    if (child < 0) return;
+    int status = 0;
+    pid_t ended = 0;
+    while (files().size() == before && (ended = waitpid(child, &status, WNOHANG)) == 0) usleep(500);
+    if (ended != 0) return;
+    usleep(static_cast<useconds_t>(delayMs) * 1000);
+    kill(child, SIGKILL);
+    waitpid(child, &status, 0);
+}
+
 void CliTest::write(const std::string& name, const std::string& text) const {
     std::ofstream(folder_ / name, std::ios::binary) << text;
 }

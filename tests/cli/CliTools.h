@@ -31,6 +31,9 @@ protected:
     /// Sends SIGTERM as soon as a file appears. Code -1 when that ended the program.
     Outcome runInterrupted(const std::string& arguments);
 
+    /// Kills the program `delayMs` milliseconds after a new file has appeared, or lets it end if none does.
+    void runKilled(const std::string& arguments, int delayMs);
+
     void write(const std::string& name, const std::string& text) const;
     /// Everything in the working folder, hidden files included, sorted, as relative paths.
     std::vector<std::string> files() const;

@@ -17,6 +17,13 @@ namespace fs = std::filesystem;
 
 fs::path folderOf(const fs::path& path) { return path.has_parent_path() ? path.parent_path() : fs::path("."); }
 
+/// A device or a pipe: it is written into, never replaced.
+bool isSpecial(const fs::path& path) {
+    std::error_code failed;
+    const fs::file_status status = fs::status(path, failed);
+    return fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status);
+}
+
 }  // namespace
 
 void checkOutputPath(std::string_view option, const fs::path& path) {
@@ -27,6 +34,7 @@ void checkOutputPath(std::string_view option, const fs::path& path) {
     if (fs::is_directory(path, failed)) {
         throw Error(fmt::format("{}: '{}' is a folder", option, path.string()), "name a file in it");
     }
+    if (isSpecial(path)) return;
     const fs::path folder = folderOf(path);
     if (!fs::is_directory(folder, failed)) {
         throw Error(fmt::format("{}: folder '{}' does not exist", option, folder.string()),
@@ -54,7 +62,7 @@ OutputFiles::~OutputFiles() {
 fs::path OutputFiles::asideFor(const fs::path& path) {
     const std::string name =
         fmt::format(".{}.{}-{}{}", path.stem().string(), getpid(), files_.size(), path.extension().string());
-    files_.push_back({folderOf(path) / name, path});
+    files_.push_back({(isSpecial(path) ? fs::temp_directory_path() : folderOf(path)) / name, path});
     return files_.back().aside;
 }
 
@@ -65,13 +73,20 @@ void OutputFiles::add(const fs::path& path, const Image& image, PngMapping mappi
 void OutputFiles::add(const fs::path& path, std::string_view text) { writeFileAtomically(asideFor(path), text); }
 
 std::vector<fs::path> OutputFiles::commit() {
+    // What cannot be undone or often fails comes first: while it may fail, no file has a new content.
+    for (const File& file : files_)
+        if (isSpecial(file.path)) writeFileAtomically(file.path, readBytes(file.aside));
     std::vector<fs::path> written;
     for (const File& file : files_) {
+        written.push_back(file.path);
+        if (isSpecial(file.path)) continue;
         std::error_code failed;
         fs::rename(file.aside, file.path, failed);
         if (failed) throw RenderError(fmt::format("'{}' cannot be written: {}", file.path.string(), failed.message()));
-        written.push_back(file.path);
     }
+    std::error_code ignored;
+    for (const File& file : files_)
+        if (isSpecial(file.path)) fs::remove(file.aside, ignored);
     files_.clear();
     return written;
 }

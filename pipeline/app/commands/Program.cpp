@@ -82,6 +82,7 @@ int runCatching(int argc, char** argv) {
 
 int runProgram(int argc, char** argv) {
     std::signal(SIGPIPE, SIG_IGN);  // `crevice plan … | head` is no failure
+    std::signal(SIGXFSZ, SIG_IGN);  // a file that grows beyond `ulimit -f` is an error in words, not the end
     return runCatching(argc, argv);
 }
 

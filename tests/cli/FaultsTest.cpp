@@ -1,0 +1,111 @@
+// Faults of the system around the program: a full disk, limits, no driver, a sudden end. Earlier files stay, nothing
+// half-written appears, and the message says what to do.
+#include <sys/resource.h>
+
+#include "CliTools.h"
+#include "core/Files.h"
+#include "core/Image.h"
+
+namespace crevice::cli {
+namespace {
+
+using Names = std::vector<std::string>;
+
+/// A variable of the environment that the program inherits; its old value comes back.
+class ScopedVariable {
+public:
+    ScopedVariable(const char* name, const char* value) : name_(name) {
+        if (const char* old = std::getenv(name)) old_ = old;
+        setenv(name, value, 1);
+    }
+    ~ScopedVariable() { old_.empty() ? unsetenv(name_) : setenv(name_, old_.c_str(), 1); }
+    ScopedVariable(const ScopedVariable&) = delete;
+    ScopedVariable& operator=(const ScopedVariable&) = delete;
+
+private:
+    const char* name_;
+    std::string old_;
+};
+
+/// The largest file that the program may write.
+class ScopedFileSize {
+public:
+    explicit ScopedFileSize(rlim_t bytes) {
+        getrlimit(RLIMIT_FSIZE, &old_);
+        const rlimit limited{bytes, old_.rlim_max};
+        setrlimit(RLIMIT_FSIZE, &limited);
+    }
+    ~ScopedFileSize() { setrlimit(RLIMIT_FSIZE, &old_); }
+    ScopedFileSize(const ScopedFileSize&) = delete;
+    ScopedFileSize& operator=(const ScopedFileSize&) = delete;
+
+private:
+    rlimit old_{};
+};
+
+class FaultsTest : public CliTest {
+protected:
+    void SetUp() override {
+        CliTest::SetUp();
+        write("a.png", "an earlier picture");
+    }
+    void expectUntouched() {
+        EXPECT_EQ(files(), Names{"a.png"});
+        EXPECT_EQ(readText(path("a.png")), "an earlier picture");
+    }
+    static void expectHas(const std::string& text, const std::string& part) {
+        EXPECT_NE(text.find(part), std::string::npos) << "'" << part << "' is not in: " << text;
+    }
+};
+
+TEST_F(FaultsTest, AFileThatMayNotGrowIsAnErrorAndTheEarlierOneStays) {
+    Outcome outcome;
+    {
+        const ScopedFileSize limit(1500);  // bytes; enough for the messages, not for the picture
+        outcome = run("render crease -o a.png --size 160x90 -q --no-cache");
+    }
+    EXPECT_EQ(outcome.code, 1);
+    expectHas(outcome.err, "error: cannot write '");
+    expectHas(outcome.err, "File too large");
+    expectHas(outcome.err, "help: raise the limit with `ulimit -f`, or write elsewhere");
+    expectUntouched();
+}
+
+TEST_F(FaultsTest, AFullDiskIsAnErrorAndNoFileOfTheRunAppears) {
+    const Outcome outcome = run("render crease -o a.png --size 16x16 -q --timings /dev/full");
+    EXPECT_EQ(outcome.code, 1);
+    expectHas(outcome.err, "error: cannot write '/dev/full': No space left on device");
+    expectHas(outcome.err, "help: free some space, or write elsewhere");
+    expectUntouched();
+    EXPECT_TRUE(std::filesystem::is_character_file("/dev/full")) << "a device must never be replaced by a file";
+}
+
+TEST_F(FaultsTest, AFolderThatTakesNoFilesIsSaidBeforeAnythingIsDone) {
+    const Outcome outcome = run("render crease -o /proc/a.png --size 16x16 -q");
+    EXPECT_NE(outcome.code, 0);
+    expectHas(outcome.err, "/proc");
+    expectHas(outcome.err, "help: ");
+    expectUntouched();
+}
+
+TEST_F(FaultsTest, NoVulkanDriverIsSaidInWords) {
+    const ScopedVariable icd("VK_ICD_FILENAMES", "/nonexistent/icd.json");
+    const ScopedVariable driver("VK_DRIVER_FILES", "/nonexistent/icd.json");
+    const Outcome outcome = run("render crease -o a.png --size 16x16 -q");
+    EXPECT_EQ(outcome.code, 2);
+    expectHas(outcome.err, "error: no Vulkan driver was found");
+    expectHas(outcome.err, "mesa-vulkan-drivers");
+    expectUntouched();
+}
+
+// Whatever instant the end comes at, the name holds the old picture or the whole new one.
+TEST_F(FaultsTest, AKilledRunLeavesTheOldPictureOrAWholeOne) {
+    for (const int delayMs : {0, 2, 5}) {
+        write("a.png", "an earlier picture");
+        runKilled("render crease -o a.png --size 320x180 -q", delayMs);
+        if (readText(path("a.png")) != "an earlier picture") EXPECT_EQ(readImage(path("a.png")).width, 320u);
+    }
+}
+
+}  // namespace
+}  // namespace crevice::cli
