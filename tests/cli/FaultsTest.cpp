@@ -103,7 +103,8 @@ TEST_F(FaultsTest, AKilledRunLeavesTheOldPictureOrAWholeOne) {
     for (const int delayMs : {0, 2, 5}) {
         write("a.png", "an earlier picture");
         runKilled("render crease -o a.png --size 320x180 -q", delayMs);
-        if (readText(path("a.png")) != "an earlier picture") EXPECT_EQ(readImage(path("a.png")).width, 320u);
+        const bool old = readText(path("a.png")) == "an earlier picture";
+        EXPECT_TRUE(old || readImage(path("a.png")).width == 320);
     }
 }
 

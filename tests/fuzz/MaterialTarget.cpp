@@ -34,13 +34,22 @@ struct Sample {
         add("sky", Value::makeString("black"));
         add("unused", number(1));
 
-        ShaderResource block{.name = "Params", .slot = {1, 0}, .stages = kFragmentBit, .active = true, .size = 64};
+        ShaderResource block;
+        block.name = "Params";
+        block.slot = {1, 0};
+        block.stages = kFragmentBit;
+        block.active = true;
+        block.size = 64;
         block.members = {{"radius", 0, 4, "float"},
                          {"count", 4, 4, "int"},
                          {"automatic", 8, 4, "float"},
                          {"tint", 16, 16, "vec4"},
                          {"packed", 32, 16, "vec4"}};
-        const ShaderResource map{.name = "map", .kind = ResourceKind::CombinedSampler, .slot = {1, 1}, .active = true};
+        ShaderResource map;
+        map.name = "map";
+        map.kind = ResourceKind::CombinedSampler;
+        map.slot = {1, 1};
+        map.active = true;
         ShaderResource sky = map;
         sky.name = "sky";
         sky.slot = {1, 2};
