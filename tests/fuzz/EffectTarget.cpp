@@ -10,7 +10,8 @@ void buildStages(const EffectAsset& asset, const EffectPass& pass, const AssetRo
     const IncludeSources sources{.effect = asset, .roots = roots, .generated = kGenerated};
     FlatPass flat = flattenPass(sources, pass, problems);
     if (problems.hasErrors()) return;
-    VariantRequest request{.effect = asset.name};
+    VariantRequest request;
+    request.effect = asset.name;
     for (const DefineInfo& info : findDefines(flat.pointers(), problems)) {
         checkDefine(info, "1", info.where, problems);
         if (info.type != DefineType::String) request.defines[info.name] = "1";

@@ -10,12 +10,14 @@ namespace crevice::fuzz {
 namespace fs = std::filesystem;
 
 LoadLimits smallLimits() {
-    return {.maxFileBytes = 1u << 20,
-            .maxVertices = 50'000,
-            .maxInstances = 2'000,
-            .maxImageSide = 1024,
-            .maxImageBytes = 8u << 20,
-            .maxNodeDepth = 64};
+    LoadLimits limits;
+    limits.maxFileBytes = 1u << 20;
+    limits.maxVertices = 50'000;
+    limits.maxInstances = 2'000;
+    limits.maxNodeDepth = 64;
+    limits.maxImageSide = 1024;
+    limits.maxImageBytes = 8u << 20;
+    return limits;
 }
 
 ScratchFolder::ScratchFolder() {
