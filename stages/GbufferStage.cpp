@@ -1,4 +1,5 @@
 // Draws opaque geometry into the G-buffer: albedo, world position, world normal, emissive, linear view depth.
+#include "CocosTargets.h"
 #include "flow/RenderStage.h"
 
 namespace crevice {
@@ -7,18 +8,23 @@ namespace {
 class GbufferStage final : public RenderStage {
 public:
     void declare(StageIo& io) override {
-        io.color("cc_gbuffer_albedoMap");
-        io.color("cc_gbuffer_positionMap");
-        io.color("cc_gbuffer_normalMap");
-        io.color("cc_gbuffer_emissiveMap");
-        io.color("viewDepth");
+        for (const char* target : gbufferTargets(io.profile())) io.color(target);
+        if (!isCocos(io.profile())) io.color("viewDepth");
         io.depth("depth", DepthUse::Write);
-        queue_ = io.queue("gbuffer", QueueSort::FrontToBack);
+        queues_ = declareQueues(io, phaseOf(io.profile()), QueueSort::FrontToBack,
+                                isCocos(io.profile()) ? "builtin-standard" : "standard");
     }
-    void render(FrameContext& frame) override { frame.drawQueue(queue_); }
+    void render(FrameContext& frame) override {
+        for (const QueueId queue : queues_) frame.drawQueue(queue);
+    }
 
 private:
-    QueueId queue_;
+    static const char* phaseOf(Profile profile) {
+        if (profile == Profile::Cocos36) return "default";
+        return profile == Profile::Cocos33 ? "deferred" : "gbuffer";
+    }
+
+    std::vector<QueueId> queues_;
 };
 
 }  // namespace

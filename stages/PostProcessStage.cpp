@@ -1,4 +1,5 @@
 // Exposure, tone mapping and sRGB encoding, or another effect over the finished frame, into finalColor.
+#include "CocosTargets.h"
 #include "flow/RenderStage.h"
 
 namespace crevice {
@@ -8,7 +9,8 @@ class PostProcessStage final : public RenderStage {
 public:
     void declare(StageIo& io) override {
         io.color("finalColor");
-        draw_ = io.fullscreen("post-process");
+        draw_ = io.fullscreen(isCocos(io.profile()) ? "pipeline/post-process" : "post-process");
+        if (io.profile() == Profile::Cocos36) io.input(draw_, 0, litTarget(io.profile()));
     }
     void render(FrameContext& frame) override { frame.draw(draw_); }
 

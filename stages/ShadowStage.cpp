@@ -23,6 +23,9 @@ public:
                 {.min = 0, .max = 10, .unit = "texels", .help = "Shift along the normal before the look-up."});
     }
     void declare(StageIo& io) override {
+        // Cocos' shadow blocks stay empty: its effects are drawn without shadows (docs/cocos-runtime.md).
+        if (isCocos(io.profile())) return;
+        draws_ = true;
         io.depth(light_ == kSpot ? "cc_spotLightingMap" : "cc_shadowMap", DepthUse::Write);
         camera_ = io.block<CameraBlock>("CCCamera");
         if (light_ == kSpot) {
@@ -37,6 +40,7 @@ public:
                                 : directionalShadowView(setup.scene(), setup.sceneBounds());
     }
     void render(FrameContext& frame) override {
+        if (!draws_) return;
         uploadForLighting(frame);
         if (!view_) return;
         // Casters see the light as their camera; the frame's own camera is back when the next stage begins.
@@ -72,6 +76,7 @@ private:
         frame.upload(shadow_, block);
     }
 
+    bool draws_ = false;
     int light_ = kDirectional;
     int pcf_ = 1;
     float bias_ = 0.0008f;

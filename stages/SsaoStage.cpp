@@ -1,5 +1,6 @@
 // Ambient occlusion from the G-buffer: one full-screen draw into cc_ssaoMap. Which form it has is the effect's
 // business.
+#include "CocosTargets.h"
 #include "SsaoKernel.h"
 #include "flow/RenderStage.h"
 
@@ -37,10 +38,11 @@ public:
         // An effect that also packs its values for a denoiser has a second output; the document names its target.
         if (io.documentWrites().size() > 1) io.color(io.documentWrites()[1]);
         block_ = io.block<SsaoBlock>("CCSsao");
-        draw_ = io.fullscreen("ssao");
+        draw_ = io.fullscreen(isCocos(io.profile()) ? "pipeline/ssao-effect" : "ssao");
+        bindGbuffer(io, draw_);
         const std::uint32_t perRay = rayPoints_ < samples_ ? rayPoints_ : samples_;
         const std::span<const glm::vec4> kernel =
-            makeSsaoSamples(static_cast<SsaoKernelKind>(kernel_), seed_, perRay, {data_.samples, samples_});
+            makeSsaoSamples(kindFor(io.profile()), seed_, perRay, {data_.samples, samples_});
         const bool baked = bake_ == kBakeOn || (bake_ == kBakeAuto && io.run().pixels() * kernel.size() >= kBakeFrom);
         io.define(draw_, "SSAO_SAMPLES", std::to_string(kernel.size()));
         if (perRay > 0) io.define(draw_, "RAY_POINTS", std::to_string(perRay));
@@ -55,6 +57,12 @@ public:
     }
 
 private:
+    /// A Cocos project's stage has the article's kernel unless the document says otherwise.
+    SsaoKernelKind kindFor(Profile profile) const {
+        if (isCocos(profile) && kernel_ == static_cast<int>(SsaoKernelKind::Stratified)) return SsaoKernelKind::Article;
+        return static_cast<SsaoKernelKind>(kernel_);
+    }
+
     std::uint32_t seed_ = 1;
     std::uint32_t samples_ = kSsaoMaxSamples;
     std::uint32_t rayPoints_ = 0;

@@ -74,7 +74,8 @@ std::string Material::targetUniform(const EffectProperty& property) {
     return property.target.empty() ? property.name : property.target.substr(0, property.target.find('.'));
 }
 
-Material::Material(const EffectVariant& variant) : variant_(variant), pass_(*variant.pass) {
+Material::Material(const EffectVariant& variant, LinearRule linear)
+    : variant_(variant), pass_(*variant.pass), linear_(linear) {
     for (const ShaderResource& resource : variant.info.resources) {
         if (resource.slot.set != kMaterialSet) continue;
         if (resource.kind == ResourceKind::UniformBlock) {
@@ -152,7 +153,8 @@ void Material::setValue(const EffectProperty& property, const Value& value, Prob
     values_[property.name] = value;
     for (std::uint32_t i = 0; placed && i < place.components; ++i) {
         float number = static_cast<float>(component(value, i));
-        if (property.linear && i < 3 && place.components >= 3) number = linearFromSrgb(number);
+        if (linear_ == LinearRule::FromSrgb && property.linear && i < 3 && place.components >= 3)
+            number = linearFromSrgb(number);
         const auto integer =
             static_cast<std::int32_t>(std::clamp(component(value, i), double(std::numeric_limits<std::int32_t>::min()),
                                                  double(std::numeric_limits<std::int32_t>::max())));

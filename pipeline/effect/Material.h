@@ -39,8 +39,12 @@ struct MaterialSampler {
 /// outlive it.
 class Material {
 public:
+    /// What becomes of values whose property is `linear`: converted from sRGB, or taken as they are by a caller that
+    /// converts them itself.
+    enum class LinearRule { FromSrgb, AsGiven };
+
     /// Throws Error when a default does not fit its uniform.
-    explicit Material(const EffectVariant& variant);
+    explicit Material(const EffectVariant& variant, LinearRule linear = LinearRule::FromSrgb);
 
     /// The "material" object of a stage: name → number, list of numbers, texture name or "auto". Collects problems.
     void apply(const Value& object, Problems& problems);
@@ -83,6 +87,7 @@ private:
 
     const EffectVariant& variant_;
     const EffectPass& pass_;
+    LinearRule linear_;
     std::vector<MaterialBlock> blocks_;
     std::vector<MaterialSampler> samplers_;
     std::map<std::string, Value, std::less<>> values_;

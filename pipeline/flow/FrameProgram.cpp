@@ -7,6 +7,7 @@
 
 #include "core/Params.h"
 #include "core/Text.h"
+#include "flow/CocosChecks.h"
 #include "flow/FrameBlocks.h"
 #include "flow/ProgramCompile.h"
 #include "flow/RenderStage.h"
@@ -72,7 +73,7 @@ std::vector<StageProgram> makePrograms(const PipelineDesc& pipeline, const Stage
             collect(problems, [&] {
                 program.stage = registry.get(desc.stageClass, desc.where).make();
                 readParams(program, problems);
-                StageIo io(program.declaration, desc, run);
+                StageIo io(program.declaration, desc, run, &pipeline);
                 program.stage->declare(io);
                 checkListsFit(desc, program.declaration, problems);
                 stages.push_back(std::move(program));
@@ -102,7 +103,21 @@ FrameProgram::FrameProgram(PipelineDesc desc, const StageRegistry& registry, Eff
         collect(problems, [&] { compiler.compileDraws(stage, problems); });
     }
     problems.throwIfErrors();
-    log_.write(problems);
+    logOnce(problems);
+}
+
+/// Passes of one effect say the same of it again and again.
+void FrameProgram::logOnce(const Problems& problems) {
+    for (const Problem& problem : problems.all()) {
+        if (!logged_.insert(problem.message).second) continue;
+        Problems one;
+        if (problem.severity == Severity::Warning) {
+            one.warning(problem.where, problem.message, problem.help);
+        } else {
+            one.note(problem.where, problem.message, problem.help);
+        }
+        log_.write(one);
+    }
 }
 
 FrameProgram::~FrameProgram() = default;
@@ -112,7 +127,7 @@ void FrameProgram::makeStages(const StageRegistry& registry, const RunInfo& run,
 }
 
 void FrameProgram::nameGlobals() {
-    GlobalNames names(desc_.files);
+    GlobalNames names(desc_.files, desc_.profile);
     for (const TargetDesc& target : desc_.targets) names.addTarget(target.name, target.binding, target.where);
     for (const StageProgram& stage : stages_) {
         for (const BlockDeclaration& block : stage.declaration.blocks)
@@ -136,6 +151,8 @@ void FrameProgram::prepare(const Scene* scene) {
         }
     }
     problems.throwIfErrors();
+    if (scene && isCocos(desc_.profile)) reportUndrawn(desc_, stages_, *scene, library_, problems);
+    logOnce(problems);
     std::vector<StageUse> uses;
     for (const StageProgram& stage : stages_) uses.push_back(useOf(stage, problems));
     problems.throwIfErrors();
@@ -151,14 +168,14 @@ StageUse FrameProgram::useOf(const StageProgram& stage, Problems& problems) cons
                  .writes = stage.declaration.writes,
                  .reads = {},
                  .where = desc.where};
-    const auto addReads = [&](const EffectVariant& variant, const std::vector<Wire>& wires) {
+    const auto addReads = [&](const EffectVariant& variant, const RenderState& state, const std::vector<Wire>& wires) {
         for (TargetRead& read : findReads(desc_, variant, wires)) {
             const bool known = std::any_of(use.reads.begin(), use.reads.end(), [&](const TargetRead& other) {
                 return other.target == read.target && other.mip == read.mip && other.storage == read.storage;
             });
             if (!known) use.reads.push_back(std::move(read));
         }
-        const std::vector<BlendTarget>& targets = variant.pass->state.blendTargets;
+        const std::vector<BlendTarget>& targets = state.blendTargets;
         for (std::size_t i = 0; i < use.writes.size(); ++i) {
             if (use.writes[i].kind == WriteKind::Color && i < targets.size() && targets[i].blend)
                 use.writes[i].blends = true;
@@ -167,11 +184,13 @@ StageUse FrameProgram::useOf(const StageProgram& stage, Problems& problems) cons
         use.compute = use.compute || !variant.compute.empty();
     };
     for (const DrawProgram& draw : stage.draws) {
-        if (draw.variant) addReads(*draw.variant, draw.wires);
+        if (draw.variant) addReads(*draw.variant, draw.variant->pass->state, draw.wires);
     }
     for (const QueueProgram& queue : stage.queues) {
         for (const SurfaceProgram& surface : queue.surfaces) {
-            if (surface.variant) addReads(*surface.variant, surface.wires);
+            if (!surface.variant) continue;
+            addReads(*surface.variant, surface.state, surface.wires);
+            for (const SurfaceProgram& more : surface.further) addReads(*more.variant, more.state, more.wires);
         }
     }
     for (const std::string& target : stage.declaration.reads)

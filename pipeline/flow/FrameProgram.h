@@ -3,6 +3,7 @@
 
 #include <map>
 #include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -27,7 +28,8 @@ struct Wire {
     std::string target;  ///< Empty = `texture`.
     std::uint32_t mip = 0;
     bool oneMip = false;
-    std::string texture;  ///< Keyword: white, black, grey, normal.
+    std::string texture;  ///< Keyword: white, black, grey, normal, empty, default.
+    bool cube = false;    ///< The sampler is a samplerCube.
 };
 
 /// A full-screen draw or a dispatch, compiled.
@@ -44,8 +46,9 @@ struct SurfaceProgram {
     std::unique_ptr<Material> material;
     std::vector<Wire> wires;                                   ///< Targets and keywords.
     std::vector<std::pair<BindingSlot, TextureRef>> textures;  ///< The scene's.
-    bool doubleSided = false;
-    MeshTopology topology = MeshTopology::Triangles;
+    RenderState state;                                         ///< The pass', with what the material changes.
+    std::uint32_t order = 0;              ///< Lower ones of a queue are drawn first: priority, then pass.
+    std::vector<SurfaceProgram> further;  ///< More passes of the same material in the same queue.
 };
 
 struct QueueProgram {
@@ -93,6 +96,7 @@ private:
     void makeStages(const StageRegistry& registry, const RunInfo& run, Problems& problems);
     void nameGlobals();
     StageUse useOf(const StageProgram& stage, Problems& problems) const;
+    void logOnce(const Problems& problems);
     static void checkListedReads(const StageDesc& desc, const StageUse& use, Problems& problems);
 
     PipelineDesc desc_;
@@ -101,6 +105,7 @@ private:
     GlobalLayout globals_;
     std::vector<StageProgram> stages_;
     FramePlan plan_;
+    std::set<std::string> logged_;
 };
 
 }  // namespace crevice

@@ -16,12 +16,10 @@ namespace {
 constexpr std::uint64_t kRingBytes = 8u << 20;
 constexpr std::uint64_t kEmptyStorageBytes = 256;
 
-GpuTexture onePixel(Device& device, const std::string& name, std::uint8_t r, std::uint8_t g, std::uint8_t b,
-                    std::uint32_t layers = 1) {
-    Image image(1, 1, Format::RGBA8);
-    const std::uint8_t rgba[4] = {r, g, b, 255};
-    std::memcpy(image.pixels.data(), rgba, sizeof rgba);
+GpuTexture makeDefault(Device& device, const std::string& name, const Image& image, std::uint32_t layers) {
     GpuTexture texture(device, {.format = Format::RGBA8,
+                                .width = image.width,
+                                .height = image.height,
                                 .layers = layers,
                                 .cube = layers == 6,
                                 .usage = TextureUsage::Sampled | TextureUsage::TransferDest,
@@ -32,6 +30,27 @@ GpuTexture onePixel(Device& device, const std::string& name, std::uint8_t r, std
                       TextureState::Sampled, 0, layer);
     }
     return texture;
+}
+
+GpuTexture onePixel(Device& device, const std::string& name, std::uint8_t r, std::uint8_t g, std::uint8_t b,
+                    std::uint32_t layers = 1, std::uint8_t alpha = 255) {
+    Image image(1, 1, Format::RGBA8);
+    const std::uint8_t rgba[4] = {r, g, b, alpha};
+    std::memcpy(image.pixels.data(), rgba, sizeof rgba);
+    return makeDefault(device, name, image, layers);
+}
+
+/// Four squares of 8x8.
+GpuTexture checkered(Device& device, const std::string& name, std::uint32_t layers) {
+    constexpr std::uint32_t kSize = 16, kHalf = kSize / 2;
+    Image image(kSize, kSize, Format::RGBA8);
+    for (std::uint32_t i = 0; i < kSize * kSize; ++i) {
+        const bool light = (i % kSize < kHalf) == (i / kSize < kHalf);
+        const std::uint8_t grey = light ? 221 : 85;
+        const std::uint8_t rgba[4] = {grey, grey, grey, 255};
+        std::memcpy(image.pixels.data() + std::size_t(i) * 4, rgba, sizeof rgba);
+    }
+    return makeDefault(device, name, image, layers);
 }
 
 DescriptorType descriptorType(GlobalKind kind) {
@@ -80,13 +99,19 @@ DefaultTextures::DefaultTextures(Device& device)
       black(onePixel(device, "default black", 0, 0, 0)),
       grey(onePixel(device, "default grey", 119, 119, 119)),
       normal(onePixel(device, "default normal", 127, 127, 255)),
-      blackCube(onePixel(device, "default cube", 0, 0, 0, 6)) {}
+      blackCube(onePixel(device, "default cube", 0, 0, 0, 6)),
+      empty(onePixel(device, "default empty", 0, 0, 0, 1, 0)),
+      checker(checkered(device, "default checker", 1)),
+      checkerCube(checkered(device, "default checker cube", 6)) {}
 
-const GpuTexture* DefaultTextures::find(std::string_view keyword) const {
+const GpuTexture* DefaultTextures::find(std::string_view keyword, bool cube) const {
+    if (cube) return keyword == "black" ? &blackCube : &checkerCube;
     if (keyword == "white") return &white;
     if (keyword == "black") return &black;
     if (keyword == "grey") return &grey;
     if (keyword == "normal") return &normal;
+    if (keyword == "empty") return &empty;
+    if (keyword == "default") return &checker;
     return nullptr;
 }
 

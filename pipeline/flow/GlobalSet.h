@@ -20,8 +20,12 @@ SamplerKey samplerKey(SamplerKind kind);
 struct DefaultTextures {
     explicit DefaultTextures(Device& device);
     GpuTexture white, black, grey, normal, blackCube;
-    /// By the keyword of an effect's property: white, black, grey, normal; null for another word.
-    const GpuTexture* find(std::string_view keyword) const;
+    // Cocos' further ones.
+    GpuTexture empty;                 ///< Nothing at all: 0, 0, 0, 0.
+    GpuTexture checker, checkerCube;  ///< 16x16 of two greys, 221 and 85: what a sampler shows that nothing feeds.
+    /// By the keyword of an effect's property: white, black, grey, normal, and Cocos' empty and default; null for
+    /// another word.
+    const GpuTexture* find(std::string_view keyword, bool cube = false) const;
 };
 
 class GlobalSet {

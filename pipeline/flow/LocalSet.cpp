@@ -3,45 +3,115 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstring>
+#include <map>
 
+#include "flow/CocosBlocks.h"
 #include "gfx/Device.h"
+#include "gfx/Readback.h"
 
 namespace crevice {
 namespace {
 
-constexpr std::uint32_t kLocalBinding = 0;
 constexpr std::uint32_t kForwardLightBinding = 1;
 constexpr std::uint64_t kSlice = 256;  // the largest alignment Vulkan allows for dynamic offsets
 constexpr std::uint64_t kSlices = 16384;
+constexpr std::uint64_t kRingBytes = kSlices * kSlice;
 constexpr std::uint64_t kForwardLightBytes = sizeof(ForwardLightBlock);
+constexpr std::uint64_t kZeroBytes = 2048;  // more than any block of the tables
+
+DescriptorType descriptorType(LocalKind kind) {
+    switch (kind) {
+        case LocalKind::DynamicBlock:
+            return DescriptorType::UniformBufferDynamic;
+        case LocalKind::Block:
+            return DescriptorType::UniformBuffer;
+        case LocalKind::Sampler2D:
+            return DescriptorType::CombinedImageSampler;
+        case LocalKind::StorageImage:
+            return DescriptorType::StorageImage;
+    }
+    return DescriptorType::UniformBuffer;
+}
+
+/// Names that share a number are one binding.
+std::vector<SetLayoutBinding> layoutBindings(Profile profile) {
+    std::vector<SetLayoutBinding> bindings;
+    for (const LocalSlot& slot : localSlots(profile)) {
+        if (!bindings.empty() && bindings.back().binding == slot.binding) continue;
+        bindings.push_back({.binding = slot.binding, .type = descriptorType(slot.kind)});
+    }
+    return bindings;
+}
+
+bool hasStorage(Profile profile) {
+    for (const LocalSlot& slot : localSlots(profile))
+        if (slot.kind == LocalKind::StorageImage) return true;
+    return false;
+}
+
+GpuTexture storageTexture(Device& device) {
+    GpuTexture texture(device, {.usage = TextureUsage::Storage | TextureUsage::TransferDest, .name = "local storage"});
+    Image black(1, 1, Format::RGBA8);
+    uploadTexture(device, texture, black, TextureState::Undefined, TextureState::StorageWrite);
+    return texture;
+}
 
 }  // namespace
 
-LocalSet::LocalSet(Device& device, DescriptorPool& pool)
-    : setLayout_(device,
-                 {{.binding = kLocalBinding, .type = DescriptorType::UniformBufferDynamic},
-                  {.binding = kForwardLightBinding, .type = DescriptorType::UniformBuffer}},
-                 "set 2"),
-      ring_(device,
-            {.size = kSlices * kSlice + kForwardLightBytes, .usage = BufferUsage::Uniform, .name = "local blocks"}),
+LocalSet::LocalSet(Device& device, DescriptorPool& pool, SamplerCache& samplers, const DefaultTextures& defaults,
+                   Profile profile)
+    : setLayout_(device, layoutBindings(profile), "set 2"),
+      // A slot may be read with a larger block than the slice it holds: the last one needs room behind it.
+      ring_(device, {.size = kRingBytes + kZeroBytes + kForwardLightBytes,
+                     .usage = BufferUsage::Uniform,
+                     .name = "local blocks"}),
+      zeroes_(device, {.size = kZeroBytes, .usage = BufferUsage::Uniform, .name = "local zeroes"}),
       set_(pool.allocate(setLayout_, "local set")) {
-    std::memset(ring_.data().data() + kSlices * kSlice, 0, kForwardLightBytes);
-    set_.writeUniformBuffer(kLocalBinding, ring_, 0, sizeof(LocalBlock));
-    set_.writeUniformBuffer(kForwardLightBinding, ring_, kSlices * kSlice, kForwardLightBytes);
+    std::memset(ring_.data().data() + kRingBytes, 0, kZeroBytes + kForwardLightBytes);
+    std::memset(zeroes_.data().data(), 0, kZeroBytes);
+    if (hasStorage(profile)) storage_ = storageTexture(device);
+    writeSlots(samplers, defaults, profile);
     set_.update();
 }
 
+void LocalSet::writeSlots(SamplerCache& samplers, const DefaultTextures& defaults, Profile profile) {
+    std::map<std::uint32_t, std::uint64_t> largest;  // Binding → bytes of the largest block that shares it.
+    for (const LocalSlot& slot : localSlots(profile))
+        largest[slot.binding] = std::max<std::uint64_t>(largest[slot.binding], slot.size);
+    for (const LocalSlot& slot : localSlots(profile)) {
+        switch (slot.kind) {
+            case LocalKind::DynamicBlock:
+                set_.writeUniformBuffer(slot.binding, ring_, 0, largest[slot.binding]);
+                break;
+            case LocalKind::Block:
+                if (slot.binding == kForwardLightBinding) {
+                    set_.writeUniformBuffer(slot.binding, ring_, kRingBytes + kZeroBytes, kForwardLightBytes);
+                } else {
+                    set_.writeUniformBuffer(slot.binding, zeroes_, 0, largest[slot.binding]);
+                }
+                break;
+            case LocalKind::Sampler2D:
+                set_.writeTexture(slot.binding, defaults.black, samplers.get(samplerKey(SamplerKind::PointClamp)));
+                break;
+            case LocalKind::StorageImage:
+                set_.writeStorageImage(slot.binding, storage_);
+                break;
+        }
+    }
+}
+
 void LocalSet::writeLights(const ForwardLightBlock& lights) {
-    ring_.write(std::as_bytes(std::span(&lights, 1)), kSlices * kSlice);
+    ring_.write(std::as_bytes(std::span(&lights, 1)), kRingBytes + kZeroBytes);
 }
 
 void LocalSet::bind(Commands& commands, const glm::mat4& world) {
-    if (head_ + kSlice > kSlices * kSlice) {
+    if (head_ + kSlice > kRingBytes) {
         throw RenderError(fmt::format("a frame draws more than {} objects whose effect reads 'CCLocal'", kSlices),
                           "take the matrices from a_matWorld0 to a_matWorld2 instead: equal meshes are then one draw");
     }
-    LocalBlock block;
+    LocalBlock36 block;  // begins as that of 3.3 does
     block.world = world;
     block.worldIT = glm::transpose(glm::inverse(world));
     ring_.write(std::as_bytes(std::span(&block, 1)), head_);

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <set>
 
+#include "flow/CocosSurface.h"
 #include "flow/RenderStage.h"
 #include "flow/Surface.h"
 #include "flow/VertexInput.h"
@@ -14,16 +15,6 @@
 
 namespace crevice {
 namespace {
-
-/// A macro's value in a document: bool, integer or word.
-std::string defineText(const Value& value, const std::string& name) {
-    if (value.isBool()) return value.boolean() ? "1" : "0";
-    if (value.isInteger()) return std::to_string(value.integer());
-    if (value.isString()) return value.string();
-    throw Error(value.where(),
-                fmt::format("define '{}' must be a bool, an integer or a word, found {}", name, value.typeName()),
-                "write true, false, 3 or \"word\"");
-}
 
 /// The later set of values wins, key by key.
 Value merged(const Value& base, const Value& over) {
@@ -34,8 +25,10 @@ Value merged(const Value& base, const Value& over) {
     return result;
 }
 
-std::unique_ptr<Material> makeMaterial(const EffectVariant& variant, const Value& values, Problems& problems) {
-    auto material = std::make_unique<Material>(variant);
+std::unique_ptr<Material> makeMaterial(const EffectVariant& variant, const Value& values, Problems& problems,
+                                       Profile profile) {
+    auto material = std::make_unique<Material>(
+        variant, isCocos(profile) ? Material::LinearRule::AsGiven : Material::LinearRule::FromSrgb);
     if (!values.isNull()) material->apply(values, problems);
     return material;
 }
@@ -51,7 +44,26 @@ Value knownProperties(const Value& offered, const EffectPass& pass) {
     return known;
 }
 
+/// What a mesh is made of, over what the pass says of triangles.
+void setTopology(RenderState& state, MeshTopology topology) {
+    if (topology == MeshTopology::Points) state.topology = Topology::PointList;
+    if (topology == MeshTopology::Lines) state.topology = Topology::LineList;
+}
+
+void addTextures(SurfaceProgram& surface, const std::vector<std::pair<std::string, TextureRef>>& textures) {
+    for (const auto& [sampler, ref] : textures) {
+        for (const Wire& wire : surface.wires) {
+            if (wire.name == sampler && wire.target.empty()) surface.textures.emplace_back(wire.slot, ref);
+        }
+    }
+}
+
 }  // namespace
+
+ProgramCompiler::ProgramCompiler(const PipelineDesc& desc, EffectLibrary& library, const GlobalLayout& globals)
+    : desc_(desc), library_(library), globals_(globals) {
+    if (isCocos(desc.profile)) macros_ = pipelineMacros(desc);
+}
 
 const EffectVariant& ProgramCompiler::compile(const StageProgram& stage, const std::string& effect, PassChoice choice,
                                               const Defines& offered) {
@@ -69,12 +81,16 @@ const EffectVariant& ProgramCompiler::compile(const StageProgram& stage, const s
     for (const auto& [name, value] : offered) {
         if (known.contains(name)) request.defines.emplace(name, value);
     }
+    for (const auto& [name, value] : macros_) {
+        if (known.contains(name)) request.defines.insert_or_assign(name, value);
+    }
     if (desc.defines.isObject()) {
         Problems problems;  // each at its own place: the library knows one for all
         for (const Member& member : desc.defines.members()) {
             const std::string value = defineText(member.value, member.key);
             const auto info = std::find_if(infos.begin(), infos.end(),
                                            [&](const DefineInfo& other) { return other.name == member.key; });
+            if (info == infos.end() && isCocos(desc_.profile)) continue;  // a material's, from another version of it
             if (info != infos.end()) {
                 checkDefine(*info, value, member.value.where(), problems);
             } else {
@@ -85,6 +101,14 @@ const EffectVariant& ProgramCompiler::compile(const StageProgram& stage, const s
         problems.throwIfErrors();
     }
     return library_.get(request, globals_.bindings());
+}
+
+const EffectTechnique& ProgramCompiler::techniqueOf(const StageProgram& stage, const MaterialEffect& material) {
+    const EffectAsset& asset = library_.asset(material.effect, stage.desc->where);
+    if (material.technique < asset.techniques.size()) return asset.techniques[material.technique];
+    throw Error(asset.where,
+                fmt::format("effect '{}' has no technique {}, which a material names", asset.name, material.technique),
+                fmt::format("it has {}, counted from 0", asset.techniques.size()));
 }
 
 void ProgramCompiler::compileDraws(StageProgram& stage, Problems& problems) {
@@ -103,9 +127,18 @@ void ProgramCompiler::compileDraws(StageProgram& stage, Problems& problems) {
             continue;
         }
         checkBlocks(stage, variant, problems);
-        program.material = makeMaterial(variant, merged(draw.material, desc.material), problems);
+        const Value values = merged(draw.material, desc.material);
+        program.material =
+            makeMaterial(variant, isCocos(desc_.profile) ? passValues(values, *variant.pass).numbers : values, problems,
+                         desc_.profile);
         program.autoProperties = program.material->autoProperties();
-        program.wires = wireShader({desc_, desc, variant, *program.material, stage.declaration.writes}, problems);
+        program.wires = wireShader({.pipeline = desc_,
+                                    .stage = desc,
+                                    .variant = variant,
+                                    .material = *program.material,
+                                    .writes = stage.declaration.writes,
+                                    .inputs = &draw.inputs},
+                                   problems);
         stage.draws.push_back(std::move(program));
     }
 }
@@ -120,31 +153,59 @@ void ProgramCompiler::compileQueue(const StageProgram& stage, QueueProgram& queu
     for (const std::size_t index : needed) {
         queue.surfaces[index] =
             compileSurface(stage, queue.declaration, scene.materials[index / kSurfaceKinds], index % 2 == 1, problems);
-        queue.surfaces[index].topology = MeshTopology(index % kSurfaceKinds / 2);
+        const auto topology = MeshTopology(index % kSurfaceKinds / 2);
+        setTopology(queue.surfaces[index].state, topology);
+        for (SurfaceProgram& more : queue.surfaces[index].further) setTopology(more.state, topology);
     }
 }
 
 SurfaceProgram ProgramCompiler::compileSurface(const StageProgram& stage, const QueueDeclaration& queue,
                                                const SceneMaterial& material, bool hasTangents, Problems& problems) {
+    if (material.effect) return compileEffectSurface(stage, queue, *material.effect, problems);
     SurfaceProgram surface;
     PassChoice choice;
     if (!choosePass(stage, queue, material.alphaMode, choice)) return surface;
     SurfaceInputs inputs = surfaceInputs(material, hasTangents);
     const EffectVariant& variant = compile(stage, queue.effect, choice, inputs.defines);
     checkBlocks(stage, variant, problems);
-    static_cast<void>(vertexInput(variant));  // refuses attributes that meshes do not have
+    static_cast<void>(vertexInput(variant, VertexSource::Mesh, missingAttributes(desc_.profile)));  // may refuse some
     surface.variant = &variant;
-    surface.doubleSided = material.doubleSided;
-    surface.material = makeMaterial(
-        variant, merged(knownProperties(inputs.properties, *variant.pass), stage.desc->material), problems);
+    surface.state = variant.pass->state;
+    if (material.doubleSided) surface.state.cullMode = CullMode::None;
+    surface.material =
+        makeMaterial(variant, merged(knownProperties(inputs.properties, *variant.pass), stage.desc->material), problems,
+                     desc_.profile);
     surface.wires =
         wireShader({desc_, *stage.desc, variant, *surface.material, stage.declaration.writes, true}, problems);
-    for (const auto& [sampler, ref] : inputs.textures) {
-        for (const Wire& wire : surface.wires) {
-            if (wire.name == sampler && wire.target.empty()) surface.textures.emplace_back(wire.slot, ref);
+    addTextures(surface, inputs.textures);
+    return surface;
+}
+
+SurfaceProgram ProgramCompiler::compileEffectSurface(const StageProgram& stage, const QueueDeclaration& queue,
+                                                     const MaterialEffect& material, Problems& problems) {
+    SurfaceProgram first;
+    for (ChosenPass& chosen : choosePasses(techniqueOf(stage, material), material, queue.queue, problems)) {
+        SurfaceProgram surface;
+        const EffectVariant& variant =
+            compile(stage, material.effect, {material.technique, chosen.pass}, materialDefines(material, chosen.pass));
+        checkBlocks(stage, variant, problems);
+        static_cast<void>(vertexInput(variant, VertexSource::Mesh, missingAttributes(desc_.profile)));
+        surface.variant = &variant;
+        surface.state = std::move(chosen.state);
+        surface.order = chosen.order;
+        const Value& given = chosen.pass < material.passes.size() ? material.passes[chosen.pass].properties : Value{};
+        const PassValues values = passValues(given, *variant.pass);
+        surface.material = makeMaterial(variant, values.numbers, problems, desc_.profile);
+        surface.wires =
+            wireShader({desc_, *stage.desc, variant, *surface.material, stage.declaration.writes, true}, problems);
+        addTextures(surface, values.textures);
+        if (!first.variant) {
+            first = std::move(surface);
+        } else {
+            first.further.push_back(std::move(surface));
         }
     }
-    return surface;
+    return first;
 }
 
 bool ProgramCompiler::choosePass(const StageProgram& stage, const QueueDeclaration& queue, AlphaMode mode,

@@ -7,8 +7,7 @@ namespace crevice {
 
 class ProgramCompiler {
 public:
-    ProgramCompiler(const PipelineDesc& desc, EffectLibrary& library, const GlobalLayout& globals)
-        : desc_(desc), library_(library), globals_(globals) {}
+    ProgramCompiler(const PipelineDesc& desc, EffectLibrary& library, const GlobalLayout& globals);
 
     void compileDraws(StageProgram& stage, Problems& problems);
     /// Every material of the scene that the queue's phase and order take.
@@ -23,12 +22,16 @@ private:
                                  const Defines& offered);
     SurfaceProgram compileSurface(const StageProgram& stage, const QueueDeclaration& queue,
                                   const SceneMaterial& material, bool hasTangents, Problems& problems);
+    SurfaceProgram compileEffectSurface(const StageProgram& stage, const QueueDeclaration& queue,
+                                        const MaterialEffect& material, Problems& problems);
+    const EffectTechnique& techniqueOf(const StageProgram& stage, const MaterialEffect& material);
     bool choosePass(const StageProgram& stage, const QueueDeclaration& queue, AlphaMode mode, PassChoice& choice);
     void checkBlocks(const StageProgram& stage, const EffectVariant& variant, Problems& problems) const;
 
     const PipelineDesc& desc_;
     EffectLibrary& library_;
     const GlobalLayout& globals_;
+    Defines macros_;  ///< The pipeline's own, over those of stages and materials.
 };
 
 }  // namespace crevice

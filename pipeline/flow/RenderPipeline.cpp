@@ -8,6 +8,7 @@
 
 #include "core/Text.h"
 #include "flow/FrameData.h"
+#include "flow/FrameUpload.h"
 #include "flow/LightGrid.h"
 #include "flow/RenderStage.h"
 #include "gfx/Device.h"
@@ -54,7 +55,8 @@ RenderPipeline::RenderPipeline(Device& device, EffectLibrary& library, const Sta
       pipelines_(device),
       defaults_(device),
       globals_(device, pool_, samplers_, program_.globals(), defaults_),
-      locals_(device, pool_),
+      locals_(device, pool_, samplers_, defaults_, program_.desc().profile),
+      quad_(device),
       commands_(device, "frame") {}
 
 RenderPipeline::~RenderPipeline() = default;
@@ -68,6 +70,25 @@ void RenderPipeline::prepare(const Scene& scene, Scene* releasing) {
     log_.write(program_.plan().notes);
     scene_ = releasing ? SceneGpu::makeReleasing(device_, samplers_, *releasing)
                        : std::make_unique<SceneGpu>(device_, samplers_, scene);
+    if (!isCocos(program_.desc().profile)) writeLights(scene);
+    targets_ = std::make_unique<TargetPool>(device_, program_.desc(), program_.plan());
+    context_ = std::make_unique<ExecutionContext>(ExecutionContext{{device_, pool_, samplers_, defaults_},
+                                                                   layouts_,
+                                                                   pipelines_,
+                                                                   globals_,
+                                                                   locals_,
+                                                                   quad_,
+                                                                   program_.desc().profile,
+                                                                   commands_,
+                                                                   *targets_});
+    for (const PlannedStage& planned : program_.plan().stages) {
+        executions_.push_back(
+            std::make_unique<StageExecution>(*context_, program_.stages()[planned.use], planned, scene_.get()));
+    }
+    timestamps_ = std::make_unique<Timestamps>(device_, static_cast<std::uint32_t>(executions_.size() + 2));
+}
+
+void RenderPipeline::writeLights(const Scene& scene) {
     const std::vector<std::byte> lights = punctualLights(scene);
     lights_ =
         Buffer(device_, {.size = lights.size(), .usage = BufferUsage::Storage, .name = "punctual lights"}, lights);
@@ -78,14 +99,6 @@ void RenderPipeline::prepare(const Scene& scene, Scene* releasing) {
     globals_.writeBuffer("CCLightGrid", lightGrid_);
     locals_.writeLights(forwardLightBlock(scene));
     globals_.update();
-    targets_ = std::make_unique<TargetPool>(device_, program_.desc(), program_.plan());
-    context_ = std::make_unique<ExecutionContext>(ExecutionContext{
-        {device_, pool_, samplers_, defaults_}, layouts_, pipelines_, globals_, locals_, commands_, *targets_});
-    for (const PlannedStage& planned : program_.plan().stages) {
-        executions_.push_back(
-            std::make_unique<StageExecution>(*context_, program_.stages()[planned.use], planned, scene_.get()));
-    }
-    timestamps_ = std::make_unique<Timestamps>(device_, static_cast<std::uint32_t>(executions_.size() + 2));
 }
 
 void RenderPipeline::activate(glm::uvec2 extent) {
@@ -151,10 +164,16 @@ void RenderPipeline::render(const FrameView& frame, std::span<const std::string>
 
 void RenderPipeline::uploadFrameBlocks(const FrameView& view) {
     globals_.beginFrame();
-    const GlobalBlock global = globalBlock(view);
-    const CameraBlock camera = cameraBlock(view, scene_->scene());
-    globals_.upload("CCGlobal", std::as_bytes(std::span(&global, 1)));
-    globals_.upload("CCCamera", std::as_bytes(std::span(&camera, 1)));
+    const int left = uploadFrame(globals_, locals_, program_.desc(), view, scene_->scene());
+    if (left > 0 && !warnedOfLights_) {
+        Problems problems;
+        problems.warning({},
+                         fmt::format("the view sees {} lights more than the {} that Cocos' CCForwardLight holds: the "
+                                     "brightest at the camera are used",
+                                     left, kForwardLights));
+        log_.write(problems);
+        warnedOfLights_ = true;
+    }
     globals_.save();
 }
 
@@ -196,11 +215,12 @@ void RenderPipeline::recordStage(StageExecution& execution, const FrameView& vie
     commands_.beginLabel(use.flow + " / " + use.stage);
     recordTransitions(execution.planned().before);
     globals_.restore();
-    if (!use.compute) beginStage(execution);
+    const bool draws = !use.compute && !execution.planned().writes.empty();
+    if (draws) beginStage(execution);
     FrameContext frame(execution, view, scene_->scene());
     execution.beginFrame();
     execution.stage().render(frame);
-    if (!use.compute) commands_.endRendering();
+    if (draws) commands_.endRendering();
     commands_.endLabel();
 }
 

@@ -65,6 +65,7 @@ private:
     struct Kept;
     void prepare(const Scene& scene, Scene* releasing);
     void activate(glm::uvec2 extent);
+    void writeLights(const Scene& scene);
     void uploadFrameBlocks(const FrameView& view);
     void recordStage(StageExecution& execution, const FrameView& view);
     void recordTransitions(const std::vector<Transition>& transitions);
@@ -81,6 +82,7 @@ private:
     DefaultTextures defaults_;
     GlobalSet globals_;
     LocalSet locals_;
+    QuadMesh quad_;
     Commands commands_;
     std::unique_ptr<Timestamps> timestamps_;
     std::unique_ptr<SceneGpu> scene_;
@@ -90,6 +92,7 @@ private:
     std::vector<std::unique_ptr<StageExecution>> executions_;
     glm::uvec2 frame_{0};  ///< Pixels of the last frame, without the guard.
     std::uint64_t drawsBefore_ = 0;
+    bool warnedOfLights_ = false;
     std::uint32_t guard_ = 0;  ///< Pixels around it.
     std::vector<std::unique_ptr<Kept>> kept_;
     std::vector<RecordedBarrier> barriers_;

@@ -75,8 +75,8 @@ void ShaderBinding::writeTextures(const BindingContext& context, const std::vect
                                   const TargetPool& targets, const std::vector<std::string>& depthReadOnly) {
     for (const Wire& wire : wires) {
         if (wire.target.empty()) {
-            const GpuTexture* texture = context.defaults.find(wire.texture);
-            if (texture)
+            const GpuTexture* texture = context.defaults.find(wire.texture, wire.cube);
+            if (texture && !(wire.cube && wire.texture == "white"))  // Own effects: cubes stay black.
                 set_.writeTexture(wire.slot.binding, *texture,
                                   context.samplers.get(samplerKey(SamplerKind::LinearRepeat)));
             continue;

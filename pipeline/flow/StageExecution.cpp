@@ -20,18 +20,6 @@ bool usesSet(const ShaderInfo& info, std::uint32_t set) {
     return false;
 }
 
-Topology topologyOf(MeshTopology topology) {
-    switch (topology) {
-        case MeshTopology::Points:
-            return Topology::PointList;
-        case MeshTopology::Lines:
-            return Topology::LineList;
-        case MeshTopology::Triangles:
-            break;
-    }
-    return Topology::TriangleList;
-}
-
 std::uint32_t groupCount(std::uint32_t pixels, std::uint32_t local) { return (pixels + local - 1) / local; }
 
 }  // namespace
@@ -46,23 +34,24 @@ StageExecution::StageExecution(const ExecutionContext& context, StageProgram& pr
             depthFormat_ = format;
         if (write.write.kind == WriteKind::DepthTest) depthReadOnly_.push_back(write.write.target);
     }
-    for (const DrawProgram& draw : program.draws) draws_.push_back(makeShader(*draw.variant, *draw.material, nullptr));
+    for (const DrawProgram& draw : program.draws)
+        draws_.push_back(makeShader(*draw.variant, *draw.material, draw.variant->pass->state, false));
     views_.resize(program.queues.size());
     for (const QueueProgram& queue : program.queues) {
-        std::vector<ShaderGpu>& shaders = queues_.emplace_back();
+        std::vector<Passes>& shaders = queues_.emplace_back();
+        std::set<std::uint32_t>& orders = orders_.emplace_back();
         for (const SurfaceProgram& surface : queue.surfaces) {
-            if (surface.variant) {
-                shaders.push_back(makeShader(*surface.variant, *surface.material, &surface));
-                shaders.back().binding->writeSceneTextures(surface.textures, *scene);
-            } else {
-                shaders.emplace_back();
-            }
+            Passes& passes = shaders.emplace_back();
+            if (!surface.variant) continue;
+            passes.push_back(makeSurface(surface));
+            for (const SurfaceProgram& more : surface.further) passes.push_back(makeSurface(more));
+            for (const ShaderGpu& pass : passes) orders.insert(pass.order);
         }
     }
 }
 
 StageExecution::ShaderGpu StageExecution::makeShader(const EffectVariant& variant, const Material& material,
-                                                     const SurfaceProgram* surface) {
+                                                     RenderState state, bool surface) {
     ShaderGpu shader;
     shader.binding.emplace(context_.bindings, variant, material);
     shader.usesLocal = usesSet(variant.info, 2);
@@ -74,20 +63,27 @@ StageExecution::ShaderGpu StageExecution::makeShader(const EffectVariant& varian
             ComputePipelineDesc{.compute = variant.compute, .layout = &layout, .name = variant.name});
         return shader;
     }
-    RenderState state = variant.pass->state;
-    if (surface) state.topology = topologyOf(surface->topology);
-    if (surface && surface->doubleSided) state.cullMode = CullMode::None;
-    shader.pipeline = &makePipeline(variant, layout, state);
+    const VertexInput input =
+        vertexInput(variant, surface ? VertexSource::Mesh : VertexSource::Quad, missingAttributes(context_.profile));
+    shader.usesQuad = !surface && input.uses(kMeshStream);
+    shader.usesZeroes = input.uses(kZeroStream);
+    shader.pipeline = &makePipeline(variant, input, layout, state);
     if (surface) {
         state.frontFaceCcw = !state.frontFaceCcw;
-        shader.flipped = &makePipeline(variant, layout, state);
+        shader.flipped = &makePipeline(variant, input, layout, state);
     }
     return shader;
 }
 
-const Pipeline& StageExecution::makePipeline(const EffectVariant& variant, const PipelineLayout& layout,
-                                             RenderState state) {
-    const VertexInput input = vertexInput(variant);
+StageExecution::ShaderGpu StageExecution::makeSurface(const SurfaceProgram& surface) {
+    ShaderGpu shader = makeShader(*surface.variant, *surface.material, surface.state, true);
+    shader.order = surface.order;
+    shader.binding->writeSceneTextures(surface.textures, *scene_);
+    return shader;
+}
+
+const Pipeline& StageExecution::makePipeline(const EffectVariant& variant, const VertexInput& input,
+                                             const PipelineLayout& layout, RenderState state) {
     if (!depthReadOnly_.empty()) state.depthWrite = false;  // the attachment is read-only, whatever the effect says
     return context_.pipelines.get(GraphicsPipelineDesc{.vertex = variant.vertex,
                                                        .fragment = variant.fragment,
@@ -111,11 +107,14 @@ void StageExecution::writeTargets() {
     }
     for (std::size_t q = 0; q < queues_.size(); ++q) {
         for (std::size_t s = 0; s < queues_[q].size(); ++s) {
-            const SurfaceProgram& surface = program_.queues[q].surfaces[s];
-            if (!surface.variant) continue;
-            writeShaderTargets(queues_[q][s], surface.wires);
-            queues_[q][s].binding->writeSceneTextures(surface.textures, *scene_);
-            queues_[q][s].binding->update();
+            const SurfaceProgram& first = program_.queues[q].surfaces[s];
+            for (std::size_t p = 0; p < queues_[q][s].size(); ++p) {
+                const SurfaceProgram& surface = p == 0 ? first : first.further[p - 1];
+                ShaderGpu& shader = queues_[q][s][p];
+                writeShaderTargets(shader, surface.wires);
+                shader.binding->writeSceneTextures(surface.textures, *scene_);
+                shader.binding->update();
+            }
         }
     }
     extent_ = context_.targets.extent();
@@ -153,12 +152,19 @@ void StageExecution::bindShader(const ShaderGpu& shader, bool flipped) {
     context_.commands.bindPipeline(flipped ? *shader.flipped : *shader.pipeline);
     context_.globals.bind(context_.commands);
     shader.binding->bind(context_.commands);
+    if (shader.usesZeroes) context_.quad.bindZeroes(context_.commands);
 }
 
 void StageExecution::draw(DrawId draw) {
-    bindShader(draws_[draw.index], false);
-    if (draws_[draw.index].usesLocal) context_.locals.bind(context_.commands, glm::mat4(1));
-    context_.commands.draw(3);
+    const ShaderGpu& shader = draws_[draw.index];
+    bindShader(shader, false);
+    if (shader.usesLocal) context_.locals.bind(context_.commands, glm::mat4(1));
+    if (!shader.usesQuad) {
+        context_.commands.draw(3);
+        return;
+    }
+    context_.quad.bind(context_.commands);
+    context_.quad.draw(context_.commands);
 }
 
 void StageExecution::dispatch(DrawId draw, Groups groups) {
@@ -185,28 +191,35 @@ void StageExecution::drawQueue(QueueId queue, const glm::mat4& view, const glm::
     if (!scene_ || scene_->instances().size() == 0) return;
     const QueueProgram& program = program_.queues[queue.index];
     const bool blended = program.declaration.queue.sort == QueueSort::BackToFront;
+    // Whether a Cocos material blends is its passes' business, and they were chosen when they were compiled.
+    const DrawFilter filter = isCocos(context_.profile) ? DrawFilter::All
+                              : blended                 ? DrawFilter::Blend
+                                                        : DrawFilter::Opaque;
     QueueView& seen = nextView(queue);
-    seen.update(context_.bindings.device, *scene_, {.view = view, .viewProjection = viewProjection},
-                blended ? DrawFilter::Blend : DrawFilter::Opaque,
+    seen.update(context_.bindings.device, *scene_, {.view = view, .viewProjection = viewProjection}, filter,
                 blended ? DrawOrder::BackToFront : DrawOrder::FrontToBack);
-    const DrawList& list = seen.list();
-    if (list.batches.empty()) return;
+    if (seen.list().batches.empty()) return;
     scene_->bindVertices(context_.commands);
-    context_.commands.bindVertexBuffer(1, seen.rows());
+    context_.commands.bindVertexBuffer(kInstanceStream, seen.rows());
+    for (const std::uint32_t order : orders_[queue.index]) drawPasses(queue, seen.list(), order);
+}
+
+void StageExecution::drawPasses(QueueId queue, const DrawList& list, std::uint32_t order) {
     const ShaderGpu* bound = nullptr;
     bool boundFlipped = false;
     std::optional<bool> boundIndices;
     for (const DrawBatch& batch : list.batches) {
         const Mesh& mesh = scene_->scene().meshes[std::size_t(batch.mesh)];
-        const ShaderGpu& shader = queues_[queue.index][surfaceIndex(batch.material, mesh)];
-        if (!shader.pipeline) continue;
-        if (bound != &shader || boundFlipped != batch.flipped) bindShader(shader, batch.flipped);
-        bound = &shader;
-        boundFlipped = batch.flipped;
-        const bool sixteenBit = scene_->mesh(batch.mesh).sixteenBit;
-        if (boundIndices != sixteenBit) scene_->bindIndices(context_.commands, sixteenBit);
-        boundIndices = sixteenBit;
-        drawBatch(shader, batch, list.instances);
+        for (const ShaderGpu& shader : queues_[queue.index][surfaceIndex(batch.material, mesh)]) {
+            if (shader.order != order) continue;
+            if (bound != &shader || boundFlipped != batch.flipped) bindShader(shader, batch.flipped);
+            bound = &shader;
+            boundFlipped = batch.flipped;
+            const bool sixteenBit = scene_->mesh(batch.mesh).sixteenBit;
+            if (boundIndices != sixteenBit) scene_->bindIndices(context_.commands, sixteenBit);
+            boundIndices = sixteenBit;
+            drawBatch(shader, batch, list.instances);
+        }
     }
 }
 

@@ -3,14 +3,17 @@
 
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
 #include "flow/FrameContext.h"
 #include "flow/FrameProgram.h"
 #include "flow/LocalSet.h"
+#include "flow/QuadMesh.h"
 #include "flow/QueueView.h"
 #include "flow/ShaderBinding.h"
+#include "flow/VertexInput.h"
 
 namespace crevice {
 
@@ -24,6 +27,8 @@ struct ExecutionContext {
     PipelineCache& pipelines;
     GlobalSet& globals;
     LocalSet& locals;
+    const QuadMesh& quad;
+    Profile profile;
     Commands& commands;
     const TargetPool& targets;
 };
@@ -64,14 +69,18 @@ private:
         std::optional<ShaderBinding> binding;
         const Pipeline* pipeline = nullptr;
         const Pipeline* flipped = nullptr;  ///< Surfaces: for instances that mirror.
-        bool usesLocal = false;
+        bool usesLocal = false, usesQuad = false, usesZeroes = false;
+        std::uint32_t order = 0;
     };
-    /// `surface` is null for full-screen draws and dispatches.
-    ShaderGpu makeShader(const EffectVariant& variant, const Material& material, const SurfaceProgram* surface);
-    const Pipeline& makePipeline(const EffectVariant& variant, const PipelineLayout& layout, RenderState state);
+    ShaderGpu makeShader(const EffectVariant& variant, const Material& material, RenderState state, bool surface);
+    ShaderGpu makeSurface(const SurfaceProgram& surface);
+    const Pipeline& makePipeline(const EffectVariant& variant, const VertexInput& input, const PipelineLayout& layout,
+                                 RenderState state);
     void writeShaderTargets(ShaderGpu& shader, const std::vector<Wire>& wires);
     void bindShader(const ShaderGpu& shader, bool flipped);
     QueueView& nextView(QueueId queue);
+    /// The passes of one place in the order, as DrawList orders what they are drawn on.
+    void drawPasses(QueueId queue, const DrawList& list, std::uint32_t order);
     void drawBatch(const ShaderGpu& shader, const DrawBatch& batch, std::span<const std::uint32_t> instances);
 
     const ExecutionContext& context_;
@@ -82,7 +91,9 @@ private:
     std::vector<Format> colorFormats_;
     std::optional<Format> depthFormat_;
     std::vector<ShaderGpu> draws_;
-    std::vector<std::vector<ShaderGpu>> queues_;  ///< [queue][surfaceIndex]
+    using Passes = std::vector<ShaderGpu>;         ///< Of one surface, ascending by order; empty = not drawn.
+    std::vector<std::vector<Passes>> queues_;      ///< [queue][surfaceIndex]
+    std::vector<std::set<std::uint32_t>> orders_;  ///< Of each queue.
     /// A stage may draw a queue several times a frame, for several viewers: each time has a view of its own.
     struct QueueViews {
         std::vector<std::unique_ptr<QueueView>> views;

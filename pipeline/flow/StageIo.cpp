@@ -20,8 +20,12 @@ std::pair<std::string, std::uint32_t> splitMip(std::string_view target) {
 
 }  // namespace
 
-StageIo::StageIo(StageDeclaration& declaration, const StageDesc& desc, const RunInfo& run)
-    : declaration_(declaration), desc_(desc), run_(run) {}
+StageIo::StageIo(StageDeclaration& declaration, const StageDesc& desc, const RunInfo& run, const PipelineDesc* pipeline)
+    : declaration_(declaration), desc_(desc), run_(run), pipeline_(pipeline) {}
+
+bool StageIo::hasTarget(std::string_view target) const {
+    return pipeline_ && pipeline_->findTarget(std::string(target)) != nullptr;
+}
 
 void StageIo::addWrite(std::string_view target, WriteKind kind) {
     // "writes" of the document renames the outputs of a class in their order, so that two instances can write two
@@ -57,7 +61,8 @@ DrawId StageIo::fullscreen(std::string_view defaultEffect) {
         throw Error(desc_.where, fmt::format("stage '{}' of class '{}' names no effect", desc_.name, desc_.stageClass),
                     "add \"effect\": \"NAME\"; `crevice effects list` shows the names");
     }
-    declaration_.draws.push_back({.effect = std::move(effect), .compute = false, .defines = {}, .material = {}});
+    declaration_.draws.push_back(
+        {.effect = std::move(effect), .compute = false, .defines = {}, .material = {}, .inputs = {}});
     return {static_cast<std::uint32_t>(declaration_.draws.size() - 1)};
 }
 
@@ -86,6 +91,11 @@ void StageIo::property(DrawId draw, std::string_view name, Value value) {
     Value& material = declaration_.draws[draw.index].material;
     if (material.isNull()) material = Value::makeObject(desc_.where);
     material.set(std::string(name), std::move(value));
+}
+
+void StageIo::input(DrawId draw, std::uint32_t binding, std::string_view target) {
+    assert(draw.index < declaration_.draws.size());
+    declaration_.draws[draw.index].inputs.emplace_back(binding, std::string(target));
 }
 
 void StageIo::chunk(std::string_view name, std::string text) {

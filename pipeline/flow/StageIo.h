@@ -38,6 +38,7 @@ struct DrawDeclaration {
     bool compute = false;
     Defines defines;  ///< From the stage's code; those of the document win.
     Value material;   ///< Values of properties, from the stage's code; those of the document win.
+    std::vector<std::pair<std::uint32_t, std::string>> inputs;  ///< Number of a sampler of set 1 → target.
 };
 
 struct QueueDeclaration {
@@ -62,7 +63,8 @@ struct StageDeclaration {
 
 class StageIo {
 public:
-    StageIo(StageDeclaration& declaration, const StageDesc& desc, const RunInfo& run);
+    StageIo(StageDeclaration& declaration, const StageDesc& desc, const RunInfo& run,
+            const PipelineDesc* pipeline = nullptr);
 
     /// Colour outputs in the order of the fragment shader's locations. "writes" of the document renames them in order.
     void color(std::string_view target);
@@ -89,6 +91,9 @@ public:
     void define(DrawId draw, std::string_view macro, std::string_view value);
     /// A property of a draw's material, where the document gives none.
     void property(DrawId draw, std::string_view name, Value value);
+    /// Cocos' stages bind images to numbers of the material's set: `target` feeds the sampler with this number, unless
+    /// the document's "reads" name another.
+    void input(DrawId draw, std::uint32_t binding, std::string_view target);
     /// A generated chunk that effects can include.
     void chunk(std::string_view name, std::string text);
 
@@ -96,6 +101,9 @@ public:
     const std::vector<std::string>& documentWrites() const { return desc_.writes; }
     const std::vector<QueueDesc>& documentQueues() const { return desc_.queues; }
     const RunInfo& run() const { return run_; }
+    Profile profile() const { return pipeline_ ? pipeline_->profile : Profile::Crevice; }
+    /// Whether the document declares the target.
+    bool hasTarget(std::string_view target) const;
     const StageDesc& description() const { return desc_; }
 
 private:
@@ -105,6 +113,7 @@ private:
     StageDeclaration& declaration_;
     const StageDesc& desc_;
     const RunInfo& run_;
+    const PipelineDesc* pipeline_;
     std::size_t renamed_ = 0;  ///< Colour and storage outputs declared so far.
 };
 

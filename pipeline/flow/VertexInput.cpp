@@ -1,9 +1,11 @@
-// The one table of attribute names.
+// The tables of attribute names.
 #include "flow/VertexInput.h"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstddef>
+#include <span>
 
 #include "core/Text.h"
 #include "scene/Scene.h"
@@ -20,43 +22,75 @@ struct AttributeRow {
     std::uint32_t offset;
 };
 constexpr AttributeRow kAttributes[] = {
-    {"a_position", 0, VertexFormat::Float3, offsetof(Vertex, position)},
-    {"a_normal", 0, VertexFormat::Float3, offsetof(Vertex, normal)},
-    {"a_tangent", 0, VertexFormat::Float4, offsetof(Vertex, tangent)},
-    {"a_texCoord", 0, VertexFormat::Float2, offsetof(Vertex, uv0)},
-    {"a_texCoord1", 0, VertexFormat::Float2, offsetof(Vertex, uv1)},
-    {"a_color", 0, VertexFormat::Float4, offsetof(Vertex, color)},
-    {"a_matWorld0", 1, VertexFormat::Float4, 0},
-    {"a_matWorld1", 1, VertexFormat::Float4, kRowBytes},
-    {"a_matWorld2", 1, VertexFormat::Float4, 2 * kRowBytes},
+    {"a_position", kMeshStream, VertexFormat::Float3, offsetof(Vertex, position)},
+    {"a_normal", kMeshStream, VertexFormat::Float3, offsetof(Vertex, normal)},
+    {"a_tangent", kMeshStream, VertexFormat::Float4, offsetof(Vertex, tangent)},
+    {"a_texCoord", kMeshStream, VertexFormat::Float2, offsetof(Vertex, uv0)},
+    {"a_texCoord1", kMeshStream, VertexFormat::Float2, offsetof(Vertex, uv1)},
+    {"a_color", kMeshStream, VertexFormat::Float4, offsetof(Vertex, color)},
+    {"a_matWorld0", kInstanceStream, VertexFormat::Float4, 0},
+    {"a_matWorld1", kInstanceStream, VertexFormat::Float4, kRowBytes},
+    {"a_matWorld2", kInstanceStream, VertexFormat::Float4, 2 * kRowBytes},
 };
 
-const AttributeRow& findAttribute(const ShaderVariable& input, const EffectVariant& variant) {
+// The quad: position and texture coordinates, two floats each.
+constexpr AttributeRow kQuadAttributes[] = {
+    {"a_position", kMeshStream, VertexFormat::Float2, 0},
+    {"a_texCoord", kMeshStream, VertexFormat::Float2, 2 * sizeof(float)},
+};
+
+std::span<const AttributeRow> attributesOf(VertexSource source) {
+    if (source == VertexSource::Quad) return kQuadAttributes;
+    return kAttributes;
+}
+
+std::uint32_t strideOf(std::uint32_t stream, VertexSource source) {
+    if (stream == kInstanceStream) return 3 * kRowBytes;
+    if (stream == kZeroStream) return 0;
+    return source == VertexSource::Quad ? 4 * sizeof(float) : sizeof(Vertex);
+}
+
+/// Zeroes in the type that the shader declares.
+AttributeRow zeroRow(const ShaderVariable& input) {
+    const bool integer = input.type.starts_with('u') || input.type.starts_with('i');
+    return {input.name.c_str(), kZeroStream, integer ? VertexFormat::UInt4 : VertexFormat::Float4, 0};
+}
+
+AttributeRow findAttribute(const ShaderVariable& input, const EffectVariant& variant, VertexSource source,
+                           MissingAttributes missing) {
     std::vector<std::string> names;
-    for (const AttributeRow& row : kAttributes) {
+    for (const AttributeRow& row : attributesOf(source)) {
         if (input.name == row.name) return row;
         names.emplace_back(row.name);
     }
-    throw Error(
-        variant.pass->where,
-        fmt::format("effect '{}' reads vertex attribute '{}', which meshes do not have", variant.effect, input.name),
-        didYouMean(input.name, names, "attributes"));
+    if (missing == MissingAttributes::Zero) return zeroRow(input);
+    throw Error(variant.pass->where,
+                fmt::format("effect '{}' reads vertex attribute '{}', which {}", variant.effect, input.name,
+                            source == VertexSource::Quad ? "the full-screen quad does not have" : "meshes do not have"),
+                didYouMean(input.name, names, "attributes"));
 }
 
 }  // namespace
 
-VertexInput vertexInput(const EffectVariant& variant) {
+bool VertexInput::uses(std::uint32_t stream) const {
+    return std::any_of(bindings.begin(), bindings.end(), [&](const VertexBinding& b) { return b.binding == stream; });
+}
+
+VertexInput vertexInput(const EffectVariant& variant, VertexSource source, MissingAttributes missing) {
     VertexInput result;
-    bool used[2] = {false, false};
     for (const ShaderVariable& input : variant.info.inputs) {
         if (!input.active) continue;
-        const AttributeRow& row = findAttribute(input, variant);
+        const AttributeRow row = findAttribute(input, variant, source, missing);
         result.attributes.push_back(
             {.location = input.location, .binding = row.binding, .format = row.format, .offset = row.offset});
-        used[row.binding] = true;
     }
-    if (used[0]) result.bindings.push_back({.binding = 0, .stride = sizeof(Vertex), .perInstance = false});
-    if (used[1]) result.bindings.push_back({.binding = 1, .stride = 3 * kRowBytes, .perInstance = true});
+    for (const std::uint32_t stream : {kMeshStream, kInstanceStream, kZeroStream}) {
+        const bool used = std::any_of(result.attributes.begin(), result.attributes.end(),
+                                      [&](const VertexAttribute& a) { return a.binding == stream; });
+        if (used)
+            result.bindings.push_back(
+                {.binding = stream, .stride = strideOf(stream, source), .perInstance = stream == kInstanceStream});
+    }
     return result;
 }
 

@@ -54,6 +54,45 @@ const MaterialSampler* findTexture(const Material& material, const std::string& 
     return nullptr;
 }
 
+/// What a property's keyword names, without the endings that Cocos' textures have; "default" for what is not built in.
+std::string cocosTexture(const MaterialSampler* texture) {
+    if (!texture) return "default";
+    std::string word = texture->texture;
+    for (const std::string_view ending : {"-texture", "-cube"})
+        if (word.ends_with(ending)) word.resize(word.size() - ending.size());
+    static constexpr const char* kBuiltIn[] = {"white", "black", "grey", "normal", "empty"};
+    return std::find(std::begin(kBuiltIn), std::end(kBuiltIn), word) != std::end(kBuiltIn) ? word : "default";
+}
+
+const std::string* findInput(const WiringInputs& in, std::uint32_t binding) {
+    if (!in.inputs) return nullptr;
+    for (const auto& [number, target] : *in.inputs)
+        if (number == binding) return &target;
+    return nullptr;
+}
+
+/// A sampler of a Cocos effect, after "reads".
+void wireCocosSampler(const WiringInputs& in, const ShaderResource& resource, const MaterialSampler* texture,
+                      Wire& wire, Problems& problems) {
+    const TargetDesc* target = in.pipeline.findTarget(resource.name);
+    if (target && !target->isGlobal()) {
+        wire.target = resource.name;
+    } else if (const std::string* input = findInput(in, resource.slot.binding)) {
+        setTarget(wire, *input);
+    } else if (target && !texture && in.pipeline.fallbacks.globalSamplers) {
+        wire.target = resource.name;
+        problems.warning(
+            resource.where.line ? resource.where : in.stage.where,
+            fmt::format("'{}' of effect '{}' belongs to the material, which has no such property: it takes "
+                        "the pipeline's '{}'",
+                        resource.name, in.variant.effect, resource.name),
+            "put '#pragma builtin(global)' in front of its declaration, or set "
+            "\"fallbacks\": { \"globalSamplers\": false } to see what Cocos shows");
+    } else {
+        wire.texture = cocosTexture(texture);
+    }
+}
+
 void reportUnwired(const WiringInputs& in, const ShaderResource& resource, Problems& problems) {
     problems.error(resource.where.line ? resource.where : in.stage.where,
                    fmt::format("'{}' in effect '{}' is bound to nothing in stage '{}': no target, 'reads' entry or "
@@ -108,7 +147,12 @@ std::vector<Wire> wireShader(const WiringInputs& in, Problems& problems) {
     for (const ShaderResource& resource : in.variant.info.resources) {
         const bool image = resource.kind == ResourceKind::StorageImage;
         if (resource.slot.set != 1 || (!image && resource.kind != ResourceKind::CombinedSampler)) continue;
-        Wire wire{.slot = resource.slot, .name = resource.name, .storage = image, .target = {}, .texture = {}};
+        Wire wire{.slot = resource.slot,
+                  .name = resource.name,
+                  .storage = image,
+                  .target = {},
+                  .texture = {},
+                  .cube = resource.cube};
         const MaterialSampler* texture = findTexture(in.material, resource.name);
         if (image && !resource.readOnly) {
             if (!wireWrite(in, wire, nextWrite)) {
@@ -117,6 +161,8 @@ std::vector<Wire> wireShader(const WiringInputs& in, Problems& problems) {
             }
         } else if (const ReadWire* read = findReadWire(in.stage, resource.name)) {
             setTarget(wire, read->target);
+        } else if (isCocos(in.pipeline.profile)) {
+            wireCocosSampler(in, resource, texture, wire, problems);
         } else if (in.pipeline.findTarget(resource.name)) {
             wire.target = resource.name;
         } else if (texture) {

@@ -47,6 +47,8 @@ std::uint32_t vertexFormatBytes(VertexFormat format) {
             return 16;
         case VertexFormat::UByte4Norm:
             return 4;
+        case VertexFormat::UInt4:
+            return 16;
         case VertexFormat::UInt:
             return 4;
     }

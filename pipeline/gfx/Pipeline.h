@@ -49,7 +49,7 @@ private:
     std::vector<std::unique_ptr<PipelineLayout>> layouts_;
 };
 
-enum class VertexFormat : std::uint8_t { Float, Float2, Float3, Float4, UByte4Norm, UInt };
+enum class VertexFormat : std::uint8_t { Float, Float2, Float3, Float4, UByte4Norm, UInt, UInt4 };
 std::uint32_t vertexFormatBytes(VertexFormat format);
 
 struct VertexBinding {

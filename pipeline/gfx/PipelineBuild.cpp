@@ -36,9 +36,9 @@ VkPipelineShaderStageCreateInfo stageInfo(VkShaderStageFlagBits stage, VkShaderM
 }
 
 VkFormat toVk(VertexFormat format) {
-    static constexpr std::array kFormats = {VK_FORMAT_R32_SFLOAT,       VK_FORMAT_R32G32_SFLOAT,
-                                            VK_FORMAT_R32G32B32_SFLOAT, VK_FORMAT_R32G32B32A32_SFLOAT,
-                                            VK_FORMAT_R8G8B8A8_UNORM,   VK_FORMAT_R32_UINT};
+    static constexpr std::array kFormats = {
+        VK_FORMAT_R32_SFLOAT,     VK_FORMAT_R32G32_SFLOAT, VK_FORMAT_R32G32B32_SFLOAT, VK_FORMAT_R32G32B32A32_SFLOAT,
+        VK_FORMAT_R8G8B8A8_UNORM, VK_FORMAT_R32_UINT,      VK_FORMAT_R32G32B32A32_UINT};
     return kFormats.at(static_cast<std::size_t>(format));
 }
 

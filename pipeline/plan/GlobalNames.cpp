@@ -2,7 +2,6 @@
 #include "plan/GlobalNames.h"
 
 #include <algorithm>
-#include <array>
 #include <cassert>
 
 #include <fmt/format.h>
@@ -13,66 +12,24 @@ namespace crevice {
 namespace {
 
 constexpr std::uint32_t kGlobalSet = 0, kLocalSet = 2;
-constexpr std::uint32_t kFirstFree = 11;   // 0-10 are Cocos'
 constexpr std::uint32_t kLastNumber = 63;  // a document that needs more has another problem
 constexpr std::size_t kMaxUniformBlocks =
     7;  // Vulkan promises 8 dynamic ones in a pipeline layout; CCLocal is the eighth
 
-struct BuiltIn {
-    const char* name;
-    GlobalKind kind;
-    std::uint32_t binding;
-    std::uint32_t size;
-};
-
-/// Slots that are in every set 0. Sizes in bytes, as the blocks in effects/chunks have them.
-constexpr std::array<BuiltIn, 9> kBuiltIns{{
-    {"CCGlobal", GlobalKind::UniformBlock, 0, 48},
-    {"CCCamera", GlobalKind::UniformBlock, 1, 544},
-    {"CCShadow", GlobalKind::UniformBlock, 2, 304},
-    {"cc_shadowMap", GlobalKind::Sampler2D, 3, 0},
-    {"cc_environment", GlobalKind::SamplerCube, 4, 0},
-    {"cc_spotLightingMap", GlobalKind::Sampler2D, 5, 0},
-    {"CCSpotShadow", GlobalKind::UniformBlock, 28, 96},
-    {"CCPunctualLights", GlobalKind::StorageBuffer, 30, 0},
-    {"CCLightGrid", GlobalKind::StorageBuffer, 31, 0},
-}};
-
-/// Targets that have Cocos' numbers where a document declares them.
-constexpr std::array<BuiltIn, 5> kCocosTargets{{
-    {"cc_gbuffer_albedoMap", GlobalKind::Sampler2D, 6, 0},
-    {"cc_gbuffer_positionMap", GlobalKind::Sampler2D, 7, 0},
-    {"cc_gbuffer_normalMap", GlobalKind::Sampler2D, 8, 0},
-    {"cc_gbuffer_emissiveMap", GlobalKind::Sampler2D, 9, 0},
-    {"cc_lighting_resultMap", GlobalKind::Sampler2D, 10, 0},
-}};
-
-struct LocalName {
-    const char* name;
-    std::uint32_t binding;
-};
-constexpr std::array<LocalName, 2> kLocalNames{{{"CCLocal", 0}, {"CCForwardLight", 1}}};
-
-const BuiltIn* cocosTarget(std::string_view name) {
-    const auto* found = std::find_if(kCocosTargets.begin(), kCocosTargets.end(),
-                                     [&](const BuiltIn& known) { return name == known.name; });
-    return found == kCocosTargets.end() ? nullptr : found;
-}
-
-bool isLocal(std::string_view name) {
-    return std::any_of(kLocalNames.begin(), kLocalNames.end(),
-                       [&](const LocalName& local) { return name == local.name; });
+bool isLocal(std::string_view name, Profile profile) {
+    const std::span<const LocalSlot> slots = localSlots(profile);
+    return std::any_of(slots.begin(), slots.end(), [&](const LocalSlot& local) { return name == local.name; });
 }
 
 bool isBlock(GlobalKind kind) { return kind == GlobalKind::UniformBlock || kind == GlobalKind::StorageBuffer; }
 
 }  // namespace
 
-GlobalLayout::GlobalLayout(std::vector<GlobalSlot> slots, Problems notes)
-    : slots_(std::move(slots)), notes_(std::move(notes)) {
+GlobalLayout::GlobalLayout(std::vector<GlobalSlot> slots, Problems notes, Profile profile)
+    : slots_(std::move(slots)), notes_(std::move(notes)), profile_(profile) {
     std::sort(slots_.begin(), slots_.end(), [](const auto& a, const auto& b) { return a.binding < b.binding; });
     for (const GlobalSlot& slot : slots_) bindings_[slot.name] = {kGlobalSet, slot.binding};
-    for (const LocalName& local : kLocalNames) bindings_[local.name] = {kLocalSet, local.binding};
+    for (const LocalSlot& local : localSlots(profile)) bindings_[local.name] = {kLocalSet, local.binding};
 }
 
 const GlobalSlot* GlobalLayout::find(std::string_view name) const {
@@ -80,8 +37,9 @@ const GlobalSlot* GlobalLayout::find(std::string_view name) const {
     return found == slots_.end() ? nullptr : &*found;
 }
 
-GlobalNames::GlobalNames(std::vector<std::string> files) : files_(std::move(files)) {
-    for (const BuiltIn& known : kBuiltIns) {
+GlobalNames::GlobalNames(std::vector<std::string> files, Profile profile)
+    : files_(std::move(files)), profile_(profile), numbers_(globalNumbers(profile)) {
+    for (const BuiltInSlot& known : numbers_.builtIns) {
         Entry entry;
         entry.slot = {known.name, known.kind, known.binding, known.size, false, {}};
         entry.builtIn = true;
@@ -116,9 +74,10 @@ void GlobalNames::addTarget(const std::string& name, std::optional<std::uint32_t
     entry.slot = {name, GlobalKind::Sampler2D, 0, 0, true, where};
     entry.document = document;
     entries_.push_back(std::move(entry));
-    if (const BuiltIn* cocos = cocosTarget(name)) {
+    for (const BuiltInSlot& reserved : numbers_.targets) {
+        if (name != reserved.name) continue;
         entries_.back().builtIn = true;
-        takeNumber(entries_.back(), cocos->binding);
+        takeNumber(entries_.back(), reserved.binding);
     }
     if (pin) setPin(entries_.back(), *pin, where);
 }
@@ -127,7 +86,7 @@ void GlobalNames::addBlock(const std::string& name, std::uint32_t size, std::opt
                            const SourceLoc& where) {
     assert(!frozen_);
     const std::size_t document = rankOf(where);
-    if (isLocal(name)) {
+    if (isLocal(name, profile_)) {
         problems_.error(where, fmt::format("block '{}' is filled per object by the framework (set 2)", name),
                         "give the stage's block another name");
         return;
@@ -160,7 +119,7 @@ void GlobalNames::addBlock(const std::string& name, std::uint32_t size, std::opt
 
 void GlobalNames::pinBlock(const std::string& name, std::uint32_t binding, const SourceLoc& where) {
     assert(!frozen_);
-    if (isLocal(name)) {
+    if (isLocal(name, profile_)) {
         problems_.error(where, fmt::format("block '{}' is in set 2 and has its number there", name),
                         "remove it from \"blocks\"");
         return;
@@ -209,7 +168,7 @@ GlobalLayout GlobalNames::freeze() {
             fmt::format("no stage provides the block '{}' that is pinned to {}", entry.slot.name, *entry.pin),
             didYouMean(entry.slot.name, provided, "blocks"));
     }
-    return GlobalLayout(std::move(slots), std::move(problems_));
+    return GlobalLayout(std::move(slots), std::move(problems_), profile_);
 }
 
 std::size_t GlobalNames::rankOf(const SourceLoc& where) {
@@ -249,18 +208,18 @@ void GlobalNames::takeNumber(Entry& entry, std::uint32_t binding) {
 
 void GlobalNames::takePin(Entry& entry) {
     const std::uint32_t pin = *entry.pin;
-    const auto cocos = std::find_if(kCocosTargets.begin(), kCocosTargets.end(),
-                                    [&](const BuiltIn& known) { return known.binding == pin; });
+    const auto reserved = std::find_if(numbers_.targets.begin(), numbers_.targets.end(),
+                                       [&](const BuiltInSlot& known) { return known.binding == pin; });
     const auto taken = taken_.find(pin);
-    if (cocos != kCocosTargets.end()) {
-        problems_.error(
-            entry.pinWhere,
-            fmt::format("'{}' cannot have binding {} of set 0: it is kept for '{}'", entry.slot.name, pin, cocos->name),
-            fmt::format("choose a number from {} upward, or leave \"binding\" out", kFirstFree));
+    if (reserved != numbers_.targets.end()) {
+        problems_.error(entry.pinWhere,
+                        fmt::format("'{}' cannot have binding {} of set 0: it is kept for '{}'", entry.slot.name, pin,
+                                    reserved->name),
+                        fmt::format("choose a number from {} upward, or leave \"binding\" out", numbers_.firstFree));
     } else if (pin > kLastNumber) {
         problems_.error(
             entry.pinWhere, fmt::format("binding {} of '{}' is too large", pin, entry.slot.name),
-            fmt::format("choose a number from {} to {}, or leave \"binding\" out", kFirstFree, kLastNumber));
+            fmt::format("choose a number from {} to {}, or leave \"binding\" out", numbers_.firstFree, kLastNumber));
     } else if (taken != taken_.end()) {
         const Entry& other = entries_[taken->second];
         problems_.error(
@@ -275,7 +234,7 @@ void GlobalNames::takePin(Entry& entry) {
 }
 
 void GlobalNames::takeFreeNumbers(std::size_t document, bool targets) {
-    std::uint32_t next = kFirstFree;
+    std::uint32_t next = numbers_.firstFree;
     for (Entry& entry : entries_) {
         if (entry.builtIn || entry.pin || entry.document != document || entry.slot.target != targets) continue;
         while (taken_.contains(next)) ++next;

@@ -11,10 +11,9 @@
 
 #include "core/Error.h"
 #include "effect/ShaderInfo.h"
+#include "plan/ProfileSlots.h"
 
 namespace crevice {
-
-enum class GlobalKind : std::uint8_t { UniformBlock, StorageBuffer, Sampler2D, SamplerCube };
 
 struct GlobalSlot {
     std::string name;
@@ -29,11 +28,12 @@ struct GlobalSlot {
 class GlobalLayout {
 public:
     GlobalLayout() = default;
-    explicit GlobalLayout(std::vector<GlobalSlot> slots, Problems notes = {});
+    explicit GlobalLayout(std::vector<GlobalSlot> slots, Problems notes = {}, Profile profile = Profile::Crevice);
 
     const std::vector<GlobalSlot>& slots() const { return slots_; }  ///< By ascending number.
     const GlobalSlot* find(std::string_view name) const;
-    /// Set 0 and the two names of set 2.
+    Profile profile() const { return profile_; }
+    /// Set 0 and the names of set 2.
     const BindingMap& bindings() const { return bindings_; }
     const Problems& notes() const { return notes_; }  ///< Pins that no block took.
 
@@ -41,16 +41,18 @@ private:
     std::vector<GlobalSlot> slots_;
     BindingMap bindings_;
     Problems notes_;
+    Profile profile_ = Profile::Crevice;
 };
 
-/// Collects names, then numbers them. Pins and Cocos' numbers are fixed; the others take the lowest free numbers from
-/// 11 upward, document by document (parent before child), in each first targets, then blocks. Declare disabled stages
-/// too: no option may change a number. Clashes are collected and thrown by freeze().
+/// Collects names, then numbers them. Pins and the profile's numbers are fixed; the others take the lowest free numbers
+/// from its first free one (11, or 8 for cocos-3.6) upward, document by document (parent before child), in each first
+/// targets, then blocks. Declare disabled stages too: no option may change a number. Clashes are collected and thrown
+/// by freeze().
 class GlobalNames {
 public:
     /// `files`: every file the document was read from, parents first. Names of a file not listed come after those
     /// listed, files in the order in which addTarget() and addBlock() meet them.
-    explicit GlobalNames(std::vector<std::string> files = {});
+    explicit GlobalNames(std::vector<std::string> files = {}, Profile profile = Profile::Crevice);
 
     /// In document order. A name that does not start with cc_ gets no slot: it is a private wire; pinning it is an
     /// error.
@@ -86,6 +88,8 @@ private:
     static Remark numberOf(const Entry& entry);
 
     std::vector<std::string> files_;
+    Profile profile_;
+    GlobalNumbers numbers_;
     std::vector<Entry> entries_;                  ///< Built-in ones first, then in order of declaration.
     std::map<std::uint32_t, std::size_t> taken_;  ///< Number → index of its entry.
     Problems problems_;

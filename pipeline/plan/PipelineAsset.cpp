@@ -68,8 +68,8 @@ PipelineDesc loadChain(const Chain& chain, const PipelineRequest& request, Probl
 /// The keys of a document in the order of a reader's interest.
 Value inReadingOrder(const Value& document) {
     Value ordered = Value::makeObject(document.where());
-    for (const char* key : {"name", "help", "output", "profile", "fallbacks", "guard", "plugins", "options", "targets",
-                            "blocks", "flows"})
+    for (const char* key : {"name", "help", "output", "profile", "fallbacks", "macros", "guard", "plugins", "options",
+                            "targets", "blocks", "flows"})
         for (const Member& member : document.members())
             if (member.key == key) ordered.set(key, member.value, member.keyLoc);
     return ordered;

@@ -34,6 +34,12 @@ const KeySpec kPipelineKeys[] = {
      .kind = KeyKind::Object,
      .help = "What a Cocos profile does where a project's files contradict each other.",
      .schema = R"({"$ref":"#/$defs/fallbacks"})"},
+    {.key = "macros",
+     .kind = KeyKind::Object,
+     .help =
+         "Macros for every effect of a Cocos profile that knows them; they win over the materials', as the pipeline's "
+         "macros do in Cocos.",
+     .schema = R"({"type":"object","additionalProperties":{"type":["boolean","integer","string"]}})"},
     {.key = "plugins",
      .kind = KeyKind::Array,
      .help = "Plugins the document needs; the caller has to allow each.",

@@ -23,6 +23,7 @@ public:
 
     void readFlows(const Value* flows, const SourceLoc& document);
     void checkTarget(const std::string& text, const SourceLoc& where, const std::string& what, bool versioned);
+    void checkDefines(const Value& defines, const std::string& what);
 
 private:
     void readFlow(const Value& value);
@@ -31,7 +32,6 @@ private:
     void readWrites(const Value& writes, const std::string& what, StageDesc& stage);
     void readPhases(const ObjectReader& reader, QueueDesc& queue);
     void readQueues(const Value& queues, const std::string& what, StageDesc& stage);
-    void checkDefines(const Value& defines, const std::string& what);
     bool isTargetText(const Value& value, const std::string& what);
 
     PipelineDesc& desc_;
@@ -225,11 +225,13 @@ void readProfile(const Value& document, PipelineDesc& desc, Problems& problems) 
         if (found != names.end())  // Another word is reported with the document's keys.
             desc.profile = static_cast<Profile>(found - names.begin() + static_cast<int>(Profile::Cocos33));
     }
+    for (const char* key : {"fallbacks", "macros"})
+        if (const Value* value = document.find(key); value && !isCocos(desc.profile))
+            problems.error(value->where(), fmt::format("'{}' without 'profile' has no effect", key),
+                           "add \"profile\", or remove it");
+    if (const Value* macros = document.find("macros")) desc.macros = *macros;
     const Value* fallbacks = document.find("fallbacks");
     if (!fallbacks) return;
-    if (!isCocos(desc.profile))
-        problems.error(fallbacks->where(), "'fallbacks' without 'profile' has no effect",
-                       "add \"profile\", or remove it");
     const ObjectReader reader(*fallbacks, fallbackKeys(), "'fallbacks'", problems);
     desc.fallbacks.rebindLiterals = reader.flag("rebindLiterals", true);
     desc.fallbacks.globalSamplers = reader.flag("globalSamplers", true);
@@ -260,6 +262,7 @@ PipelineDesc readPipelineTree(const Value& document, std::vector<OptionDesc> opt
 
     readProfile(document, desc, problems);
     TreeReader reader(desc, problems);
+    if (desc.macros.isObject()) reader.checkDefines(desc.macros, "'macros'");
     reader.readFlows(document.find("flows"), document.where());
     if (const Value* output = document.find("output")) {
         desc.output = output->string();

@@ -107,6 +107,7 @@ struct PipelineDesc {
     SourceLoc outputWhere;
     Profile profile = Profile::Crevice;
     Fallbacks fallbacks;
+    Value macros;      ///< Object or null: for every effect that knows them, over what its material says.
     double guard = 0;  ///< Percent of the frame's height that is rendered beyond every edge and cut off.
     SourceLoc guardWhere;
     std::vector<std::string> plugins;

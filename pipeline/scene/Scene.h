@@ -130,6 +130,7 @@ struct Light {
     glm::vec3 color{1};
     float intensity = 1;
     float range = 0;
+    float size = 0;  ///< Radius of the source, world units; 0 = a point. Only Cocos' effects use it.
     float innerAngle = 0, outerAngle = 0.785398f;
     glm::vec3 position{0};
     glm::vec3 direction{0, 0, -1};  ///< The way the light travels, unit length.

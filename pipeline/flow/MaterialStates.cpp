@@ -1,0 +1,145 @@
+// Reads state overrides; the orders of Cocos' enums are those of ours, primitives aside.
+#include "flow/MaterialStates.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <optional>
+#include <span>
+
+#include "core/Text.h"
+
+namespace crevice {
+namespace {
+
+constexpr const char* kCompareOps[] = {"never",   "less",      "equal",         "less_equal",
+                                       "greater", "not_equal", "greater_equal", "always"};
+constexpr const char* kCullModes[] = {"none", "front", "back"};
+constexpr const char* kPolygonModes[] = {"fill", "point", "line"};
+constexpr PolygonMode kPolygons[] = {PolygonMode::Fill, PolygonMode::Point, PolygonMode::Line};
+constexpr const char* kBlendOps[] = {"add", "sub", "rev_sub", "min", "max"};
+constexpr const char* kBlendFactors[] = {"zero",
+                                         "one",
+                                         "src_alpha",
+                                         "dst_alpha",
+                                         "one_minus_src_alpha",
+                                         "one_minus_dst_alpha",
+                                         "src_color",
+                                         "dst_color",
+                                         "one_minus_src_color",
+                                         "one_minus_dst_color",
+                                         "src_alpha_saturate",
+                                         "constant_color",
+                                         "one_minus_constant_color",
+                                         "constant_alpha",
+                                         "one_minus_constant_alpha"};
+constexpr const char* kPrimitives[] = {
+    "point_list",           "line_list",     "line_strip",    "line_loop",      "line_list_adjacency",
+    "line_strip_adjacency", "iso_line_list", "triangle_list", "triangle_strip", "triangle_fan"};
+constexpr Topology kTopologies[] = {
+    Topology::PointList, Topology::LineList, Topology::LineStrip,    Topology::LineStrip,     Topology::LineList,
+    Topology::LineStrip, Topology::LineList, Topology::TriangleList, Topology::TriangleStrip, Topology::TriangleFan};
+
+class StateReader {
+public:
+    StateReader(const Value& object, Problems& problems) : object_(object), problems_(problems) {}
+
+    void flag(const char* key, bool& out) const {
+        const Value* value = object_.find(key);
+        if (value && value->isBool()) out = value->boolean();
+        if (value && value->isNumber()) out = value->number() != 0;
+    }
+    void number(const char* key, float& out) const {
+        const Value* value = object_.find(key);
+        if (value && value->isNumber()) out = static_cast<float>(value->number());
+    }
+    /// Place of the word or number in `names`; nothing when the key is missing or wrong.
+    std::optional<std::size_t> index(const char* key, std::span<const char* const> names) const {
+        const Value* value = object_.find(key);
+        if (!value || value->isNull()) return std::nullopt;
+        if (value->isInteger() && value->integer() >= 0 && value->integer() < static_cast<std::int64_t>(names.size()))
+            return static_cast<std::size_t>(value->integer());
+        if (value->isString()) {
+            std::string word = value->string();
+            std::transform(word.begin(), word.end(), word.begin(),
+                           [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+            for (std::size_t i = 0; i < names.size(); ++i)
+                if (word == names[i]) return i;
+        }
+        problems_.error(value->where(), fmt::format("{} is no value for '{}'", value->toJson(-1), key),
+                        fmt::format("give one of {}, or a number below {}",
+                                    join(std::vector<std::string>(names.begin(), names.end())), names.size()));
+        return std::nullopt;
+    }
+    template <class Enum>
+    void word(const char* key, std::span<const char* const> names, Enum& out) const {
+        if (const auto found = index(key, names)) out = static_cast<Enum>(*found);
+    }
+
+private:
+    const Value& object_;
+    Problems& problems_;
+};
+
+void readRasterizer(const StateReader& reader, RenderState& state) {
+    reader.word("cullMode", kCullModes, state.cullMode);
+    if (const auto mode = reader.index("polygonMode", kPolygonModes)) state.polygonMode = kPolygons[*mode];
+    reader.flag("isFrontFaceCCW", state.frontFaceCcw);
+    bool biased = state.depthBias != 0 || state.depthBiasSlope != 0;
+    reader.flag("depthBiasEnabled", biased);
+    reader.number("depthBias", state.depthBias);
+    reader.number("depthBiasSlop", state.depthBiasSlope);
+    if (!biased) state.depthBias = state.depthBiasSlope = 0;
+}
+
+void readDepth(const StateReader& reader, RenderState& state) {
+    reader.flag("depthTest", state.depthTest);
+    reader.flag("depthWrite", state.depthWrite);
+    reader.word("depthFunc", kCompareOps, state.depthFunc);
+}
+
+void readBlendTarget(const Value& item, BlendTarget& target, Problems& problems) {
+    const StateReader reader(item, problems);
+    reader.flag("blend", target.blend);
+    reader.word("blendSrc", kBlendFactors, target.src);
+    reader.word("blendDst", kBlendFactors, target.dst);
+    reader.word("blendEq", kBlendOps, target.op);
+    reader.word("blendSrcAlpha", kBlendFactors, target.srcAlpha);
+    reader.word("blendDstAlpha", kBlendFactors, target.dstAlpha);
+    reader.word("blendAlphaEq", kBlendOps, target.alphaOp);
+    const Value* mask = item.find("blendColorMask");
+    if (mask && mask->isNumber()) target.colorMask = static_cast<std::uint8_t>(static_cast<int>(mask->number()) & 0xf);
+}
+
+const Value* objectIn(const Value& states, const char* key) {
+    const Value* value = states.find(key);
+    return value && value->isObject() ? value : nullptr;
+}
+
+}  // namespace
+
+RenderState withStates(RenderState state, const Value& states, Problems& problems) {
+    if (!states.isObject()) return state;
+    if (const auto primitive = StateReader(states, problems).index("primitive", kPrimitives))
+        state.topology = kTopologies[*primitive];
+    if (const Value* raster = objectIn(states, "rasterizerState"))
+        readRasterizer(StateReader(*raster, problems), state);
+    if (const Value* depth = objectIn(states, "depthStencilState")) readDepth(StateReader(*depth, problems), state);
+    const Value* blend = objectIn(states, "blendState");
+    const Value* targets = blend ? blend->find("targets") : nullptr;
+    if (!targets || !targets->isArray()) return state;
+    for (std::size_t i = 0; i < targets->items().size(); ++i) {
+        if (!targets->items()[i].isObject()) continue;
+        if (state.blendTargets.size() <= i) state.blendTargets.resize(i + 1);
+        readBlendTarget(targets->items()[i], state.blendTargets[i], problems);
+    }
+    return state;
+}
+
+int priorityOf(int passPriority, const Value& states) {
+    const Value* priority = states.isObject() ? states.find("priority") : nullptr;
+    return priority && priority->isInteger() ? static_cast<int>(priority->integer()) : passPriority;
+}
+
+}  // namespace crevice
