@@ -34,7 +34,7 @@ void fillCamera(Block& block, const FrameView& view, const Scene& scene, bool hd
     block.viewProj = base.viewProj, block.viewProjInv = base.viewProjInv;
     block.position = base.position;
     block.exposure = {view.exposure, 1.0f / view.exposure, hdr ? 1.0f : 0.0f, 1.0f / kStandardExposure};
-    block.mainLitDir = base.mainLitDir;
+    block.mainLitDir = glm::vec4(glm::vec3(base.mainLitDir), 0.0f);  // w: there is no shadow map of it
     block.mainLitColor = base.mainLitColor;
     block.mainLitColor.w *= view.exposure;
     // One illuminance scales both colours: the larger component of the two, so that colours are at most 1.
