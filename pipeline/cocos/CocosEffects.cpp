@@ -152,7 +152,9 @@ std::vector<StageSource> CocosEffects::stages(const EffectAsset& effect, const E
     for (const auto& [name, value] : values)
         if (value.find('\n') != std::string::npos)
             problems.error(request.where, fmt::format("the value of define '{}' has several lines", name));
-    numberStages(texts, bindings, state_->options.numbering, problems);
+    NumberingOptions numbering = state_->options.numbering;
+    numbering.rebindByName = numbering.rebindByName && request.rebindLiterals;
+    numberStages(texts, bindings, numbering, problems);
     std::vector<StageSource> sources;
     for (StageText& text : texts) {
         StageSource& source = sources.emplace_back();

@@ -153,6 +153,10 @@ private:
         const auto pinned = bindings_.find(declaration.name);
         if (pinned != bindings_.end()) {
             if (pinned->second == own || !options_.rebindByName) return own;
+            // Without a pragma a sampler is the material's, whatever its name: the pipeline may still feed it there.
+            if (declaration.builtin == Builtin::None && declaration.kind == InterfaceKind::CombinedSampler &&
+                declaration.literal.set != int(kGlobalSet) && pinned->second.set == kGlobalSet)
+                return own;
             noteMove(declaration, own, pinned->second);
             return pinned->second;
         }

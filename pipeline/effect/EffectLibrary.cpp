@@ -22,6 +22,7 @@ constexpr std::size_t kMaxEffectBytes = 16u << 20;
 /// Everything of a request that can change the answer, as one text.
 std::string requestKey(const VariantRequest& request, const BindingMap& bindings, std::uint64_t generation) {
     std::string key = fmt::format("{}\n{} {} {}\n", request.effect, request.technique, request.pass, generation);
+    if (!request.rebindLiterals) key += "literal numbers\n";
     for (const auto& [name, value] : request.defines) key += fmt::format("{}={}\n", name, value);
     for (const auto& [name, slot] : bindings) key += fmt::format("{}:{}.{}\n", name, slot.set, slot.binding);
     return key;

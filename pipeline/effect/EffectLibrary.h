@@ -34,8 +34,9 @@ struct VariantRequest {
     std::size_t technique = 0;
     std::size_t pass = 0;
     Defines defines;
-    SourceLoc where;         ///< Who asked, for "no effect named" errors.
-    bool checkOnly = false;  ///< Nothing will be drawn with it: resources that Crevice does not bind are no error.
+    SourceLoc where;             ///< Who asked, for "no effect named" errors.
+    bool rebindLiterals = true;  ///< Front ends: names decide over numbers of sets 0 and 2 that the author wrote out.
+    bool checkOnly = false;      ///< Nothing will be drawn with it: resources that Crevice does not bind are no error.
 };
 
 class EffectFrontEnd;

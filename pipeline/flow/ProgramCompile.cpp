@@ -44,6 +44,17 @@ Value knownProperties(const Value& offered, const EffectPass& pass) {
     return known;
 }
 
+/// Of a glTF material that nobody translated for a Cocos effect: what has the same name and size there.
+Value fittingProperties(const Value& offered, const EffectPass& pass) {
+    const auto count = [](const Value& value) { return value.isArray() ? value.items().size() : std::size_t(1); };
+    Value fitting = Value::makeObject();
+    for (const EffectProperty& property : pass.properties) {
+        const Value* value = offered.find(property.name);
+        if (value && count(*value) == count(property.value)) fitting.set(property.name, *value);
+    }
+    return fitting;
+}
+
 /// What a mesh is made of, over what the pass says of triangles.
 void setTopology(RenderState& state, MeshTopology topology) {
     if (topology == MeshTopology::Points) state.topology = Topology::PointList;
@@ -74,6 +85,7 @@ const EffectVariant& ProgramCompiler::compile(const StageProgram& stage, const s
                            .pass = choice.pass,
                            .defines = {},
                            .where = desc.effectWhere.line ? desc.effectWhere : desc.where};
+    request.rebindLiterals = desc_.fallbacks.rebindLiterals;
     std::set<std::string> known;
     library_.asset(effect, request.where);
     const std::vector<DefineInfo> infos = library_.discoverDefines(effect, choice.technique, choice.pass);
@@ -172,9 +184,9 @@ SurfaceProgram ProgramCompiler::compileSurface(const StageProgram& stage, const 
     surface.variant = &variant;
     surface.state = variant.pass->state;
     if (material.doubleSided) surface.state.cullMode = CullMode::None;
-    surface.material =
-        makeMaterial(variant, merged(knownProperties(inputs.properties, *variant.pass), stage.desc->material), problems,
-                     desc_.profile);
+    const Value known = isCocos(desc_.profile) ? fittingProperties(inputs.properties, *variant.pass)
+                                               : knownProperties(inputs.properties, *variant.pass);
+    surface.material = makeMaterial(variant, merged(known, stage.desc->material), problems, desc_.profile);
     surface.wires =
         wireShader({desc_, *stage.desc, variant, *surface.material, stage.declaration.writes, true}, problems);
     addTextures(surface, inputs.textures);
@@ -231,7 +243,26 @@ bool ProgramCompiler::choosePass(const StageProgram& stage, const QueueDeclarati
     return false;
 }
 
+/// Numbers that an author wrote out and nobody rebound: another one's, or nobody's.
+void ProgramCompiler::checkNumbers(const StageProgram& stage, const EffectVariant& variant, Problems& problems) const {
+    for (const ShaderResource& resource : variant.info.resources) {
+        if (resource.slot.set == 1) continue;
+        const auto known = globals_.bindings().find(resource.name);
+        if (known != globals_.bindings().end() && known->second == resource.slot) continue;
+        const std::string place = fmt::format("set {}, binding {}", resource.slot.set, resource.slot.binding);
+        problems.error(
+            resource.where.line ? resource.where : stage.desc->where,
+            fmt::format("'{}' of effect '{}' is written for {}, and the pipeline {}", resource.name, variant.effect,
+                        place,
+                        known == globals_.bindings().end()
+                            ? std::string("has no such name")
+                            : fmt::format("has it at set {}, binding {}", known->second.set, known->second.binding)),
+            "correct the number, or leave \"fallbacks\": { \"rebindLiterals\" } on: names then decide");
+    }
+}
+
 void ProgramCompiler::checkBlocks(const StageProgram& stage, const EffectVariant& variant, Problems& problems) const {
+    if (isCocos(desc_.profile)) checkNumbers(stage, variant, problems);
     for (const ShaderResource& resource : variant.info.resources) {
         if (resource.slot.set != 0 || resource.kind != ResourceKind::UniformBlock) continue;
         const GlobalSlot* slot = globals_.find(resource.name);

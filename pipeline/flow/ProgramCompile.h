@@ -26,6 +26,7 @@ private:
                                         const MaterialEffect& material, Problems& problems);
     const EffectTechnique& techniqueOf(const StageProgram& stage, const MaterialEffect& material);
     bool choosePass(const StageProgram& stage, const QueueDeclaration& queue, AlphaMode mode, PassChoice& choice);
+    void checkNumbers(const StageProgram& stage, const EffectVariant& variant, Problems& problems) const;
     void checkBlocks(const StageProgram& stage, const EffectVariant& variant, Problems& problems) const;
 
     const PipelineDesc& desc_;

@@ -79,7 +79,8 @@ bool VertexInput::uses(std::uint32_t stream) const {
 VertexInput vertexInput(const EffectVariant& variant, VertexSource source, MissingAttributes missing) {
     VertexInput result;
     for (const ShaderVariable& input : variant.info.inputs) {
-        if (!input.active) continue;
+        // Front ends keep declarations that no code reads in the shader's interface: Vulkan wants them fed.
+        if (!input.active && missing == MissingAttributes::Refused) continue;
         const AttributeRow row = findAttribute(input, variant, source, missing);
         result.attributes.push_back(
             {.location = input.location, .binding = row.binding, .format = row.format, .offset = row.offset});

@@ -26,9 +26,9 @@ inline MissingAttributes missingAttributes(Profile profile) {
     return isCocos(profile) ? MissingAttributes::Zero : MissingAttributes::Refused;
 }
 
-/// Attributes that the shader does not use are left out. `missing`: what happens to those that are used and that the
-/// source does not have: Throws Error naming those there are, or feeds zeroes (Cocos' effects ask for the attributes of
-/// every mesh).
+/// `missing`: what happens to attributes that the source does not have. Refused: throws Error naming those there are;
+/// attributes that no code reads are left out. Zero: feeds zeroes, and feeds those that no code reads too (Cocos'
+/// effects ask for the attributes of every mesh).
 VertexInput vertexInput(const EffectVariant& variant, VertexSource source = VertexSource::Mesh,
                         MissingAttributes missing = MissingAttributes::Refused);
 
