@@ -24,7 +24,10 @@ public:
     }
     void declare(StageIo& io) override {
         // Cocos' shadow blocks stay empty: its effects are drawn without shadows (docs/cocos-runtime.md).
-        if (isCocos(io.profile())) return;
+        if (isCocos(io.profile())) {
+            if (io.hasTarget("cc_shadowMap")) io.depth("cc_shadowMap", DepthUse::Write);
+            return;
+        }
         draws_ = true;
         io.depth(light_ == kSpot ? "cc_spotLightingMap" : "cc_shadowMap", DepthUse::Write);
         camera_ = io.block<CameraBlock>("CCCamera");

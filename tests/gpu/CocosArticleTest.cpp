@@ -71,6 +71,90 @@ protected:
     }
 };
 
+/// The article's occlusion in our own dialect, for the images of version 3.6.
+constexpr const char* kFromDepth = R"(
+CCEffect %{
+  techniques:
+  - passes:
+    - vert: fullscreen-vs
+      frag: reference-fs
+      rasterizerState: { cullMode: none }
+      depthStencilState: { depthTest: false, depthWrite: false }
+}%
+CCProgram reference-fs %{
+  precision highp float;
+  layout(std140) uniform CCCamera {
+    mat4 cc_matView; mat4 cc_matViewInv; mat4 cc_matProj; mat4 cc_matProjInv; mat4 cc_matViewProj; mat4 cc_matViewProjInv;
+    vec4 cc_cameraPos; vec4 cc_surfaceTransform; vec4 cc_screenScale; vec4 cc_exposure; vec4 cc_mainLitDir;
+    vec4 cc_mainLitColor; vec4 cc_ambientSky; vec4 cc_ambientGround; vec4 cc_fogColor; vec4 cc_fogBase; vec4 cc_fogAdd;
+    vec4 cc_nearFar; vec4 cc_viewPort;
+  };
+  #include <ssao-constant>
+  uniform sampler2D gbufferNormal;
+  uniform sampler2D depth;
+  in vec2 v_uv;
+  layout(location = 0) out vec4 fragColor;
+
+  float random(vec2 uv) { return fract(sin(dot(uv, vec2(12.9898, 78.233))) * 43758.5453); }
+  vec3 worldAt(vec2 uv) {
+    vec3 ndc = vec3((uv * cc_viewPort.zw + cc_viewPort.xy - cc_viewPort.xy) / cc_viewPort.zw * 2.0 - 1.0,
+                    texture(depth, uv).r);
+    float w = cc_matProj[3][2] / (ndc.z + cc_matProj[2][2]);
+    return (cc_matViewProjInv * vec4(ndc * w, w)).xyz;
+  }
+  vec3 normalAt(vec2 uv) {
+    vec2 e = texture(gbufferNormal, uv).xy;
+    vec3 n = vec3(e, 1.0 - abs(e.x) - abs(e.y));
+    if (n.z < 0.0) {
+      n.xy = (1.0 - abs(n.yx)) * vec2(n.x >= 0.0 ? 1.0 : -1.0, n.y >= 0.0 ? 1.0 : -1.0);
+    }
+    return normalize(n);
+  }
+  float depthOfWorld(vec3 p) { return -(cc_matView * vec4(p, 1.0)).z / cc_cameraNFLSInfo.y; }
+  void main() {
+    vec3 p = worldAt(v_uv);
+    vec3 n = normalAt(v_uv);
+    vec3 r = vec3(random(v_uv + vec2(0.0, 1.0)) * 2.0 - 1.0, random(v_uv + vec2(1.0, 0.0)) * 2.0 - 1.0, 0.0);
+    vec3 t = r - n * dot(r, n);
+    t = dot(t, t) > 0.0 ? t * inversesqrt(dot(t, t)) : vec3(1.0, 0.0, 0.0);
+    mat3 frame = mat3(t, cross(n, t), n);
+    float own = depthOfWorld(p);
+    float occlusion = 0.0;
+    for (int i = 0; i < 64; ++i) {
+      vec3 s = p + frame * ssao_samples[i].xyz;
+      vec4 clip = cc_matProj * cc_matView * vec4(s, 1.0);
+      if (clip.w <= 0.0) {
+        continue;
+      }
+      float stored = depthOfWorld(worldAt(clip.xy / clip.w * 0.5 + 0.5));
+      float range = smoothstep(0.0, 1.0, 1.0 / max(abs(own - stored), 1e-9));
+      occlusion += (stored <= depthOfWorld(s) ? 1.0 : 0.0) * range;
+    }
+    fragColor = vec4(1.0 - occlusion / 64.0);
+  }
+}%
+)";
+
+TEST_F(CocosArticle, OcclusionIsThatOfOurEffectOnTheSameGbuffer) {
+    writeEffect("from-depth", kFromDepth);
+    for (const std::string article : kBoth) {
+        const bool v33 = article == "article-v33";
+        const std::string stage = std::string(R"({"stage": "FullscreenStage", "name": "Reference", "effect": ")") +
+                                  (v33 ? "ssao-article" : "from-depth") + R"(", "writes": ["reference"]}, )";
+        renderer_ = makeRenderer();
+        loadArticle(article, {}, "{ \"stage\": \"LightingStage\"", stage + "{ \"stage\": \"LightingStage\"",
+                    R"("reference": { "format": "RGBA8" }, )");
+        renderer_->setScene(withEffects(cloister()));
+        View view = sized(kWidth, kHeight);
+        view.keep = {"cc_ssaoMap", "reference"};
+        renderer_->render(view);
+        takeWarnings();
+        const Difference difference = differenceOf(renderer_->target("cc_ssaoMap"), renderer_->target("reference"), 1);
+        EXPECT_EQ(difference.beyond, 0) << article << ' ' << difference.most * 255;
+        EXPECT_LT(meanOf(renderer_->target("reference")), 0.95);
+    }
+}
+
 TEST_F(CocosArticle, OfVersion33IsOurArticleForm) {
     const Pictures reference = ours(cloister());
     const Pictures here = cocos("article-v33", cloister());
@@ -79,9 +163,11 @@ TEST_F(CocosArticle, OfVersion33IsOurArticleForm) {
     save("ours.png", reference.picture);
     EXPECT_LT(meanOf(here.occlusion), 0.95);  // there is occlusion to compare
     EXPECT_GT(meanOf(here.picture), 0.1);
-    EXPECT_EQ(differenceOf(here.occlusion, reference.occlusion, 1).beyond, 0);
-    const Difference picture = differenceOf(here.picture, reference.picture, 3);
-    EXPECT_EQ(picture.beyond, 0) << picture.most * 255;
+    // The two G-buffers are written by different shaders: where a half float rounds otherwise, a point of the kernel
+    // may change sides. One pixel in 3000 may be such a one (on the same G-buffer none is: see above).
+    EXPECT_LE(differenceOf(here.occlusion, reference.occlusion, 1).beyond, 10);
+    EXPECT_LE(differenceOf(here.picture, reference.picture, 3).beyond, 10);
+    EXPECT_LT(differenceOf(here.picture, reference.picture, 3).mean, 0.1 / 255);
 }
 
 TEST_F(CocosArticle, OfVersion36IsThatFromDepth) {

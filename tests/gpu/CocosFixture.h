@@ -41,14 +41,17 @@ protected:
         return result.text;
     }
 
+    /// `from` in the document becomes `to`, and `targets` (members of an object, each with a comma) join its targets.
     void loadArticle(const std::string& article, Sets sets = {}, const std::string& from = {},
-                     const std::string& to = {}) {
+                     const std::string& to = {}, const std::string& targets = {}) {
         std::string text = imported(article);
-        if (!from.empty()) {
-            const std::size_t at = text.find(from);
-            ASSERT_NE(at, std::string::npos) << from << '\n' << text;
-            text.replace(at, from.size(), to);
-        }
+        const auto replace = [&](const std::string& old, const std::string& fresh) {
+            const std::size_t at = text.find(old);
+            ASSERT_NE(at, std::string::npos) << old << '\n' << text;
+            text.replace(at, old.size(), fresh);
+        };
+        if (!from.empty()) replace(from, to);
+        if (!targets.empty()) replace("\"targets\": {", "\"targets\": { " + targets);
         writeFileAtomically(folder_ / "test.pipeline.json", text);
         renderer_->effects().addFrontEnd(std::make_unique<cocos::CocosEffects>(rootsOf(article)));
         sets.push_back({"SsaoStage.params.seed", "7"});

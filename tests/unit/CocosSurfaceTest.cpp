@@ -48,8 +48,8 @@ TEST(CocosQueues, TakePassesByPhaseAndBlending) {
 TEST(CocosQueues, LeaveOutPassesOfARenderGraphAndThoseSwitchedOff) {
     EffectTechnique technique;
     technique.passes = {passOf("default"), passOf("default"), passOf("default"), passOf("default")};
-    technique.passes[0].renderPass = "gbuffer";
-    technique.passes[1].renderPass = "default";
+    technique.passes[0].passName = "gbuffer";
+    technique.passes[1].passName = "default";
     technique.passes[2].switchMacro = "USE_OUTLINE";
     technique.passes[3].switchMacro = "USE_RIM";
     technique.passes[3].embeddedMacros["USE_RIM"] = "1";
