@@ -49,7 +49,9 @@ std::vector<StageMacro> mergeMacros(const std::vector<StageText>& stages);
 
 /// The lines in front of a stage's text: version, extensions, engine constants, and `#define NAME value` for every
 /// macro in `macros` that the text does not define itself. Values: bools as 1 and 0, numbers as given, else the lowest
-/// of the range, words as given, else the first option. Names in `values` that are no macro of the shader say nothing.
+/// of the range, words as given, else the first option. A macro that is only asked whether it is defined (#ifdef,
+/// #ifndef, defined()) stays undefined while its value is 0. Names in `values` that are no macro of the shader say
+/// nothing.
 std::string makeHead(const StageText& stage, const std::vector<StageMacro>& macros, const Defines& values);
 
 }  // namespace crevice::cocos

@@ -162,7 +162,7 @@ private:
         if (bracket) advance();
         Condition result;
         if (leadingName(word_).empty()) failed_ = true;
-        const ConditionName name = failed_ ? ConditionName{} : lookup_(word_);
+        const ConditionName name = failed_ ? ConditionName{} : lookup_(word_, false);
         if (name.outside && !failed_) {
             result.needs = {std::string(word_)};
             result.negated = {"!" + std::string(word_)};
@@ -178,7 +178,7 @@ private:
         advance();
         if (word == "__VERSION__") return constant(450);
         if (word_ == "(") skipArguments();
-        const ConditionName name = lookup_(word);
+        const ConditionName name = lookup_(word, true);
         Condition result;
         result.value = name.value;
         if (name.value) return result;
@@ -236,7 +236,7 @@ Condition negate(const Condition& condition) {
 }
 
 std::optional<bool> decideByVersion(std::string_view expression) {
-    const auto value = readCondition(expression, [](std::string_view) { return ConditionName{}; }).value;
+    const auto value = readCondition(expression, [](std::string_view, bool) { return ConditionName{}; }).value;
     if (!value) return std::nullopt;
     return *value != 0;
 }

@@ -23,7 +23,8 @@ struct ConditionName {
     bool outside = true;             ///< A macro whose value comes from outside: it is kept in lists.
     std::vector<std::string> alias;  ///< Other names it stands for, in their place.
 };
-using NameLookup = std::function<ConditionName(std::string_view)>;
+/// `isValue` is false for a name that is only asked whether it is defined.
+using NameLookup = std::function<ConditionName(std::string_view name, bool isValue)>;
 
 /// The expression of an #if or #elif. A comparison counts as its names; of `||` nothing is kept; `__VERSION__` is 450.
 /// Malformed expressions give an unknown value without needs: the compiler reports them where they matter.

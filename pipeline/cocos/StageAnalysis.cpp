@@ -137,7 +137,8 @@ private:
 
     Condition evaluate(const Directive& line) {
         if (line.kind == LineKind::If || line.kind == LineKind::Elif) {
-            Condition condition = readCondition(line.rest, [this](std::string_view name) { return lookUp(name, 0); });
+            Condition condition = readCondition(
+                line.rest, [this](std::string_view name, bool isValue) { return lookUp(name, isValue, 0); });
             if (condition.tooDeep)
                 problems_.error({out_.flat.files[place_->origin.file], place_->origin.line},
                                 "the condition nests brackets deeper than 200", "write it with fewer brackets");
@@ -145,14 +146,14 @@ private:
         }
         const std::string name(leadingName(line.rest));
         Condition condition;
-        if (name.empty() || !lookUp(name, kMaxAliasDepth).outside) return condition;
+        if (name.empty() || !lookUp(name, false, 0).outside) return condition;
         condition.needs = {name};
         condition.negated = {"!" + name};
         return line.kind == LineKind::Ifndef ? negate(condition) : condition;
     }
 
     /// A name in a condition. Macros of the text stand for what they are defined as; others are asked of the outside.
-    ConditionName lookUp(std::string_view name, int depth) {
+    ConditionName lookUp(std::string_view name, bool isValue, int depth) {
         ConditionName result;
         if (name.starts_with("GL_") || name.starts_with("__") || name == "VULKAN") {
             result.outside = false;
@@ -160,11 +161,11 @@ private:
         }
         const auto it = definitions_.find(name);
         if (it == definitions_.end() && !inText_.contains(name)) {
-            mention(name);
+            mention(name, isValue);
             return result;
         }
         result.outside = false;
-        if (it == definitions_.end() || depth >= kMaxAliasDepth) return result;
+        if (it == definitions_.end() || !isValue || depth >= kMaxAliasDepth) return result;
         for (const MacroDefinition* macro : it->second) followAlias(*macro, it->second.size() == 1, depth, result);
         return result;
     }
@@ -189,7 +190,8 @@ private:
             }
             const std::string_view word = leadingName(body.substr(i));
             i += word.size();
-            const ConditionName inner = word == "defined" ? ConditionName{{}, false, {}} : lookUp(word, depth + 1);
+            const ConditionName inner =
+                word == "defined" ? ConditionName{{}, false, {}} : lookUp(word, true, depth + 1);
             if (inner.outside) add(std::string(word));
             for (const std::string& alias : inner.alias) add(alias);
         }
@@ -203,10 +205,10 @@ private:
         return &info;
     }
 
-    void mention(std::string_view name) {
+    void mention(std::string_view name, bool isValue) {
         if (engineConstants().contains(name)) return;
         DefineInfo* info = entry(name);
-        info->tested = true;
+        info->tested = info->tested || isValue;
         if (info->where.line == 0 && place_ != nullptr) {
             const auto column = textOf(*place_).find(name);
             info->where = {out_.flat.files[place_->origin.file], place_->origin.line, static_cast<int>(column) + 1,
@@ -291,7 +293,9 @@ private:
             const bool equal = std::all_of(same.begin(), same.end(), [&](const Hoisted* other) {
                 return defineLine(*other->macro) == defineLine(*same[0]->macro);
             });
-            if (equal) {
+            // Where the text has a #define of the name too, both stand in branches of their own.
+            const bool shared = inText_.contains(name) && !same[0]->raw.empty();
+            if (equal && !shared) {
                 write(defineLine(*same[0]->macro), same[0]->origin);
                 continue;
             }

@@ -68,9 +68,11 @@ std::string makeHead(const StageText& stage, const std::vector<StageMacro>& macr
     }
     for (const StageMacro& macro : macros) {
         const auto given = values.find(macro.info.name);
-        if (!defines(stage, macro.info.name))
-            head += fmt::format("#define {} {}\n", macro.info.name,
-                                given == values.end() ? macro.info.defaultValue : valueOf(macro.info, given->second));
+        if (defines(stage, macro.info.name)) continue;
+        const std::string value = given == values.end() ? macro.info.defaultValue : valueOf(macro.info, given->second);
+        // `#ifndef SURFACE_HAS_OWN` asks for a definition, not for a value.
+        const bool onlyIfDefined = !macro.info.tested && !macro.info.described && value == "0";
+        if (!onlyIfDefined) head += fmt::format("#define {} {}\n", macro.info.name, value);
     }
     return head;
 }

@@ -51,6 +51,15 @@ TEST(CocosMacro, DifferentDefinitionsKeepTheirConditions) {
     bench.compile({{"USE_X", "1"}});
 }
 
+TEST(CocosMacro, PragmaAndTextMayDefineANameInTurns) {
+    CocosBench bench;
+    bench.fragment(
+        "layout(location = 0) out vec4 color;\n#if USE_X\n#pragma define POSITION vec4(1.0)\n#else\n"
+        "#define POSITION vec4(0.0)\n#endif\nvoid main() { color = POSITION; }\n");
+    bench.compile({{"USE_X", "0"}});
+    bench.compile({{"USE_X", "1"}});
+}
+
 TEST(CocosMacro, BodiesWithPreprocessorLinesAreWrittenOut) {
     CocosBench bench;
     bench.chunk("more", "float more() { return 1.0; }\n");

@@ -165,14 +165,16 @@ TEST(CocosPragma, EveryMacroGetsAValueAndTheTextsOwnGetNone) {
     CocosBench bench;
     bench.fragment(
         "#pragma define-meta CC_USE_FOG range([0, 4])\n#pragma define-meta COUNT range([2, 8])\n"
-        "#pragma define-meta UV options([v_uv, v_uv1])\n#pragma define CC_RENDER_MODE 1\n#ifdef FLAG\n#endif\n"
+        "#pragma define-meta UV options([v_uv, v_uv1])\n#pragma define CC_RENDER_MODE 1\n#ifdef FLAG\n#endif\n#if "
+        "TESTED || defined(FLAG)\n#endif\n"
         "#define OWN 3\n#if OWN && CC_RENDER_MODE\n#endif\n");
     const StageText text = bench.fragmentText();
     const auto lines = words(makeHead(text, mergeMacros({text}), {}));
     EXPECT_THAT(lines, Contains("#define CC_USE_FOG 4"));  // No fog, not the first kind of fog.
     EXPECT_THAT(lines, Contains("#define COUNT 2"));
     EXPECT_THAT(lines, Contains("#define UV v_uv"));
-    EXPECT_THAT(lines, Contains("#define FLAG 0"));
+    EXPECT_THAT(lines, Not(Contains("#define FLAG 0")));  // Only asked whether it is defined.
+    EXPECT_THAT(lines, Contains("#define TESTED 0"));
     EXPECT_THAT(lines, Contains("#define CC_DEVICE_SUPPORT_FLOAT_TEXTURE 1"));
     EXPECT_THAT(lines, Contains("#define CC_ENABLE_CLUSTERED_LIGHT_CULLING 0"));
     EXPECT_THAT(makeHead(text, text.macros, {}), Not(HasSubstr("OWN")));
@@ -191,6 +193,17 @@ TEST(CocosPragma, EveryMacroGetsAValueAndTheTextsOwnGetNone) {
     const auto odd = words(makeHead(text, mergeMacros({text}), {{"COUNT", "many"}, {"FLAG", "7"}}));
     EXPECT_THAT(odd, Contains("#define COUNT 2"));
     EXPECT_THAT(odd, Contains("#define FLAG 7"));
+}
+
+TEST(CocosPragma, DefaultFunctionsStandWhereNobodyDefinesTheirOwn) {
+    CocosBench bench;
+    bench.chunk("defaults", "#ifndef SURFACES_MODIFY\nfloat modify() { return 1.0; }\n#endif\n");
+    const std::string main = "#include <defaults>\nvoid main() { color = vec4(modify()); }\n";
+    bench.fragment("layout(location = 0) out vec4 color;\n" + main);
+    bench.compile();
+    bench.fragment("layout(location = 0) out vec4 color;\n#define SURFACES_MODIFY\nfloat modify() { return 2.0; }\n" +
+                   main);
+    bench.compile();
 }
 
 TEST(CocosPragma, EmbeddedMacrosWin) {
@@ -231,7 +244,7 @@ TEST(CocosCondition, VersionDecides) {
 }
 
 TEST(CocosCondition, SimpleNeedsAreKept) {
-    const NameLookup outside = [](std::string_view) { return ConditionName{}; };
+    const NameLookup outside = [](std::string_view, bool) { return ConditionName{}; };
     EXPECT_THAT(readCondition("A && !B && defined(C)", outside).needs, ElementsAre("A", "!B", "C"));
     EXPECT_THAT(readCondition("!(A)", outside).needs, ElementsAre("!A"));
     EXPECT_THAT(readCondition("!!A", outside).needs, ElementsAre("A"));
