@@ -104,6 +104,26 @@ auto inOurWords(const std::string& name, Read read) {
     }
 }
 
+/// OpenEXR makes room for as many bytes as an attribute says it has: here they must be there. An attribute is a name, a
+/// type (both end in a zero) and a size; an empty name ends the header.
+void checkAttributes(std::span<const std::byte> bytes, std::size_t at, const std::string& name) {
+    const auto skipWord = [&] {
+        const std::size_t begin = at;
+        while (at < bytes.size() && bytes[at] != std::byte{0}) ++at;
+        if (at++ >= bytes.size()) fail(name, "its header is cut off");
+        return at - begin - 1;
+    };
+    while (skipWord() > 0) {
+        skipWord();
+        std::uint32_t size = 0;
+        if (bytes.size() - at < sizeof size) fail(name, "its header is cut off");
+        std::memcpy(&size, bytes.data() + at, sizeof size);
+        at += sizeof size;
+        if (size > bytes.size() - at) fail(name, "an attribute of its header reaches beyond the file");
+        at += size;
+    }
+}
+
 /// Read on its own and judged before OpenEXR makes room for lines and tiles. Layout: magic number, version and flags,
 /// attributes ("OpenEXR File Layout").
 Imf::Header readHeader(std::span<const std::byte> bytes, const std::string& name, const Limits& limits) {
@@ -112,6 +132,7 @@ Imf::Header readHeader(std::span<const std::byte> bytes, const std::string& name
     if (bytes.size() < kAttributes) fail(name, "its header is damaged");
     std::memcpy(&version, bytes.data() + 4, sizeof version);
     if (Imf::isMultiPart(version) || Imf::isNonImage(version)) fail(name, "it has several parts or deep pixels");
+    checkAttributes(bytes, kAttributes, name);
     return inOurWords(name, [&] {
         BytesIn stream(bytes, name);
         stream.seekg(kAttributes);
