@@ -282,7 +282,7 @@ private:
                       const std::vector<glm::mat4>& worlds) {
         if (scene_.instances.size() + worlds.size() > options_.limits.maxInstances) {
             problems_.error({}, fmt::format("the scene has more than {} instances", options_.limits.maxInstances),
-                            "lower \"count\" of its arrays");
+                            "lower \"count\" of its arrays, or " + raiseLimit("instances"));
             return;
         }
         const int mesh = findMesh(primitive);
@@ -302,7 +302,12 @@ private:
         for (const ParamRow& row : table.rows()) key += fmt::format(" {}={}", row.key, row.defaultValue);
         for (const glm::vec2& point : primitive.profile) key += fmt::format(" {},{}", point.x, point.y);
         const auto [entry, isNew] = meshes_.emplace(key, int(scene_.meshes.size()));
-        if (isNew) scene_.meshes.push_back(makePrimitive(primitive));
+        if (!isNew) return entry->second;
+        scene_.meshes.push_back(makePrimitive(primitive));
+        vertexCount_ += scene_.meshes.back().vertices.size();
+        if (vertexCount_ > options_.limits.maxVertices)
+            throw Error(SourceLoc{}, fmt::format("the scene has more than {} vertices", options_.limits.maxVertices),
+                        "lower \"segments\" of its primitives, or " + raiseLimit("vertices"));
         return entry->second;
     }
 
@@ -356,6 +361,7 @@ private:
     Scene scene_;
     std::map<std::string, int> ownMaterials_;
     std::map<std::string, int> meshes_;
+    std::size_t vertexCount_ = 0;  ///< Of the primitives' meshes.
     int defaultMaterial_ = -1;
 };
 
@@ -366,7 +372,10 @@ Scene readSceneAsset(const Value& document, const fs::path& folder, const LoadOp
 }
 
 Scene loadSceneAsset(const fs::path& path, const LoadOptions& options) {
-    const Value document = parseJson(readText(path), path.string());
+    const Limits& limits = options.limits;
+    const Value document = parseJson(
+        readText(path), path.string(),
+        {.maxBytes = limits.maxFileBytes, .maxDepth = limits.maxDocumentDepth, .maxNodes = limits.maxDocumentValues});
     Scene scene = readSceneAsset(document, fs::absolute(path).parent_path(), options);
     if (scene.name.empty()) scene.name = path.stem().stem().string();
     return scene;

@@ -65,8 +65,7 @@ TEST_F(FaultsTest, AFileThatMayNotGrowIsAnErrorAndTheEarlierOneStays) {
         outcome = run("render crease -o a.png --size 160x90 -q --no-cache");
     }
     EXPECT_EQ(outcome.code, 1);
-    expectHas(outcome.err, "error: cannot write '");
-    expectHas(outcome.err, "File too large");
+    expectHas(outcome.err, "error: cannot write 'a.png': File too large");
     expectHas(outcome.err, "help: raise the limit with `ulimit -f`, or write elsewhere");
     expectUntouched();
 }

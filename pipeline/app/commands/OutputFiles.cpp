@@ -66,11 +66,29 @@ fs::path OutputFiles::asideFor(const fs::path& path) {
     return files_.back().aside;
 }
 
-void OutputFiles::add(const fs::path& path, const Image& image, PngMapping mapping, float far) {
-    writeImage(asideFor(path), image, mapping, far);
+/// A failure names the file that was asked for.
+template <class Write>
+void OutputFiles::writeAside(const fs::path& path, Write write) {
+    const fs::path aside = asideFor(path);
+    try {
+        write(aside);
+    } catch (const RenderError& error) {
+        std::vector<Problem> problems = error.problems();
+        for (Problem& problem : problems) {
+            const std::size_t at = problem.message.find(aside.string());
+            if (at != std::string::npos) problem.message.replace(at, aside.string().size(), path.string());
+        }
+        throw RenderError(std::move(problems));
+    }
 }
 
-void OutputFiles::add(const fs::path& path, std::string_view text) { writeFileAtomically(asideFor(path), text); }
+void OutputFiles::add(const fs::path& path, const Image& image, PngMapping mapping, float far) {
+    writeAside(path, [&](const fs::path& aside) { writeImage(aside, image, mapping, far); });
+}
+
+void OutputFiles::add(const fs::path& path, std::string_view text) {
+    writeAside(path, [&](const fs::path& aside) { writeFileAtomically(aside, text); });
+}
 
 std::vector<fs::path> OutputFiles::commit() {
     // What cannot be undone or often fails comes first: while it may fail, no file has a new content.

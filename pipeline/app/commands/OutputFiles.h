@@ -35,6 +35,8 @@ private:
         std::filesystem::path aside, path;
     };
     std::filesystem::path asideFor(const std::filesystem::path& path);
+    template <class Write>
+    void writeAside(const std::filesystem::path& path, Write write);
 
     std::vector<File> files_;
 };
