@@ -4,12 +4,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <deque>
 
 #include "core/Text.h"
 #include "effect/EffectFrontEnd.h"
 #include "effect/Includes.h"
 #include "effect/ShaderCompiler.h"
 #include "effect/SpirvCache.h"
+#include "effect/SpirvCheck.h"
 #include "effect/VariantBuilder.h"
 
 namespace crevice {
@@ -18,6 +20,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t kMaxEffectBytes = 16u << 20;
+constexpr std::size_t kRecentStages = 64;
 
 /// Everything of a request that can change the answer, as one text.
 std::string requestKey(const VariantRequest& request, const BindingMap& bindings, std::uint64_t generation) {
@@ -65,6 +68,7 @@ struct EffectLibrary::State {
     Log log;
     SpirvCache disk;
     ShaderCompiler compiler;
+    std::deque<std::pair<std::string, StageCode>> recent;  ///< Numbered stages by their text, newest first.
     std::vector<std::unique_ptr<EffectFrontEnd>> frontEnds;
     std::map<std::string, std::unique_ptr<EffectAsset>> assets;  ///< By path.
     std::map<const EffectAsset*, EffectFrontEnd*> readers;       ///< Of the assets that are not in our own dialect.
@@ -72,6 +76,7 @@ struct EffectLibrary::State {
     std::vector<std::unique_ptr<EffectVariant>> variants;
     std::map<std::string, const EffectVariant*> byRequest, byContent;
     Chunks chunks;
+    std::uint64_t made = 0;        ///< Variants so far: the last one's id.
     std::uint64_t generation = 0;  ///< Counts changes of generated chunks and of roots.
     Counters counters;
 
@@ -92,7 +97,9 @@ struct EffectLibrary::State {
                                       const BindingMap& bindings, Problems& said) const;
     const EffectVariant& make(const VariantRequest& request, const BindingMap& bindings);
     CompiledPass compiledFor(const std::string& key, const std::vector<StageSource>& sources,
-                             const BindingMap& bindings);
+                             const BindingMap& bindings, bool check);
+    std::vector<StageCode> codeOf(const std::vector<StageSource>& sources, const BindingMap& bindings,
+                                  Problems& problems);
     std::string askKey(const EffectAsset& effect, const VariantRequest& request, const BindingMap& bindings) const;
     const EffectVariant& keep(const EffectAsset& effect, const VariantRequest& request, const std::string& place,
                               CompiledPass compiled);
@@ -209,16 +216,41 @@ std::vector<StageSource> EffectLibrary::State::stagesOf(const EffectAsset& asset
     return sources;
 }
 
+/// Numbered stages one by one, each text once: passes share their programs.
+std::vector<StageCode> EffectLibrary::State::codeOf(const std::vector<StageSource>& sources, const BindingMap& bindings,
+                                                    Problems& problems) {
+    const bool numbered = std::all_of(sources.begin(), sources.end(), [](const auto& s) { return s.numbered; });
+    if (!numbered) return compiler.compile(sources, bindings, problems);
+    std::vector<StageCode> code;
+    for (const StageSource& source : sources) {
+        const std::string key =
+            contentHash(fmt::format("{}\n{}{}", static_cast<int>(source.stage), source.head, source.text));
+        auto known = std::find_if(recent.begin(), recent.end(), [&](const auto& stage) { return stage.first == key; });
+        if (known == recent.end()) {
+            auto made = compiler.compile({&source, 1}, bindings, problems);
+            if (made.empty()) continue;
+            recent.emplace_front(key, std::move(made.front()));
+            known = recent.begin();
+            if (recent.size() > kRecentStages) recent.pop_back();
+        }
+        code.push_back(known->second);
+    }
+    return code;
+}
+
 CompiledPass EffectLibrary::State::compiledFor(const std::string& key, const std::vector<StageSource>& sources,
-                                               const BindingMap& bindings) {
-    if (auto kept = disk.load(key)) {
+                                               const BindingMap& bindings, bool check) {
+    auto kept = disk.load(key);
+    if (kept && (kept->checked || !check)) {
         ++counters.fromDisk;
         return std::move(*kept);
     }
     Problems problems;
     CompiledPass compiled;
-    compiled.code = compiler.compile(sources, bindings, problems);
+    compiled.code = codeOf(sources, bindings, problems);
     problems.throwIfErrors();
+    for (std::size_t i = 0; check && i < sources.size(); ++i) checkSpirv(compiled.code[i], sources[i], problems);
+    compiled.checked = check;
     compiled.info = reflectStages(compiled.code, sources, problems);
     problems.throwIfErrors();
     ++counters.compiled;
@@ -230,7 +262,7 @@ CompiledPass EffectLibrary::State::compiledFor(const std::string& key, const std
 std::string EffectLibrary::State::askKey(const EffectAsset& effect, const VariantRequest& request,
                                          const BindingMap& bindings) const {
     EffectFrontEnd* reader = readerOf(effect);
-    const std::string fingerprint = reader != nullptr ? reader->fingerprint() : std::string();
+    const std::string fingerprint = reader != nullptr && disk.keeps() ? reader->fingerprint() : std::string();
     if (fingerprint.empty()) return {};
     return contentHash(fmt::format("{}\n{}\n{}\n{}", ShaderCompiler::version(), fingerprint, effect.path,
                                    requestKey(request, bindings, 0)));
@@ -242,7 +274,7 @@ const EffectVariant& EffectLibrary::State::keep(const EffectAsset& effect, const
     variant->pass = &passOf(effect, request);
     variant->name = variantName(effect.name, *variant->pass);
     variant->effect = request.effect;
-    variant->id = variants.size() + 1;
+    variant->id = ++made;
     variant->info = std::move(compiled.info);
     for (StageCode& stage : compiled.code)
         (stage.stage == kVertexBit     ? variant->vertex
@@ -261,7 +293,7 @@ const EffectVariant& EffectLibrary::State::make(const VariantRequest& request, c
     };
     const std::string asked = askKey(effect, request, bindings);
     if (const auto answer = asked.empty() ? std::nullopt : disk.loadAnswer(asked)) {
-        if (auto kept = disk.load(answer->content)) {
+        if (auto kept = disk.load(answer->content); kept && (kept->checked || !request.checkOnly)) {
             Problems said;
             if (!answer->problems.empty()) said.add(Error(answer->problems));
             log.write(said);
@@ -277,7 +309,7 @@ const EffectVariant& EffectLibrary::State::make(const VariantRequest& request, c
         ++counters.fromMemory;
         return *it->second;
     }
-    CompiledPass compiled = compiledFor(key, sources, bindings);
+    CompiledPass compiled = compiledFor(key, sources, bindings, request.checkOnly);
     if (!asked.empty()) disk.storeAnswer(asked, {key, said.all()});
     return keep(effect, request, placeOf(key), std::move(compiled));
 }
@@ -295,6 +327,8 @@ EffectLibrary::EffectLibrary(AssetRoots roots, const Log& log, Options options)
                        {},
                        {},
                        {},
+                       {},
+                       0,
                        0,
                        {}}) {}
 EffectLibrary::EffectLibrary(AssetRoots roots, const Log& log) : EffectLibrary(std::move(roots), log, Options{}) {}
@@ -363,5 +397,11 @@ void EffectLibrary::setRoots(AssetRoots roots) {
 }
 
 const EffectLibrary::Counters& EffectLibrary::counters() const { return state_->counters; }
+
+void EffectLibrary::dropVariants() {
+    state_->byRequest.clear();
+    state_->byContent.clear();
+    state_->variants.clear();
+}
 
 }  // namespace crevice

@@ -36,7 +36,8 @@ struct VariantRequest {
     Defines defines;
     SourceLoc where;             ///< Who asked, for "no effect named" errors.
     bool rebindLiterals = true;  ///< Front ends: names decide over numbers of sets 0 and 2 that the author wrote out.
-    bool checkOnly = false;      ///< Nothing will be drawn with it: resources that Crevice does not bind are no error.
+    /// Nothing will be drawn with it: its SPIR-V is validated, and resources that Crevice does not bind are no error.
+    bool checkOnly = false;
 };
 
 class EffectFrontEnd;
@@ -76,6 +77,8 @@ public:
         std::size_t compiled = 0, fromDisk = 0, fromMemory = 0;
     };
     const Counters& counters() const;
+    /// Gives the memory of all variants back; what get() returned is gone. Disk and parsed effects stay.
+    void dropVariants();
 
 private:
     struct State;

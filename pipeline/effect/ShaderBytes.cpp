@@ -112,6 +112,7 @@ void compiledPass(Io& io, Pass& pass) {
     io.list(pass.info.inputs, [](Io& inner, auto& v) { variable(inner, v); });
     io.list(pass.info.outputs, [](Io& inner, auto& v) { variable(inner, v); });
     for (auto& size : pass.info.localSize) io(size);
+    io(pass.checked);
     problemList(io, pass.info.refusals);
 }
 

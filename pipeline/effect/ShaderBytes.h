@@ -14,6 +14,7 @@ namespace crevice {
 struct CompiledPass {
     std::vector<StageCode> code;
     ShaderInfo info;
+    bool checked = false;  ///< By SPIRV-Tools, without complaint.
 };
 
 std::string toBytes(const CompiledPass& pass);

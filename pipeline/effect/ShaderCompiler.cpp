@@ -11,7 +11,6 @@
 #include "effect/BindingResolver.h"
 #include "effect/Declarations.h"
 #include "effect/GlslMessages.h"
-#include "effect/SpirvCheck.h"
 
 namespace crevice {
 namespace {
@@ -50,7 +49,7 @@ bool parseStage(ParsedStage& stage, Problems& problems) {
     return ok;
 }
 
-bool numberByName(glslang::TProgram& program, const std::vector<StageSource>& sources, const BindingMap& bindings,
+bool numberByName(glslang::TProgram& program, std::span<const StageSource> sources, const BindingMap& bindings,
                   Problems& problems) {
     std::map<EShLanguage, Declarations> declarations;
     for (const StageSource& source : sources) declarations.emplace(toLanguage(source.stage), Declarations(source.flat));
@@ -59,7 +58,8 @@ bool numberByName(glslang::TProgram& program, const std::vector<StageSource>& so
         problems);
     glslang::TGlslIoMapper mapper;
     const bool mapped = program.mapIO(&resolver, &mapper);
-    if (!mapped && !problems.hasErrors()) reportLinkMessages(program.getInfoLog(), sources, problems);
+    if (!mapped && !problems.hasErrors())
+        reportLinkMessages(program.getInfoLog(), {sources.begin(), sources.end()}, problems);
     return !problems.hasErrors();
 }
 
@@ -72,12 +72,12 @@ StageCode translate(glslang::TProgram& program, ShaderStageBits stage) {
     return code;
 }
 
-bool linkTogether(std::vector<ParsedStage>& stages, const std::vector<StageSource>& sources, const BindingMap& bindings,
+bool linkTogether(std::vector<ParsedStage>& stages, std::span<const StageSource> sources, const BindingMap& bindings,
                   std::vector<StageCode>& code, Problems& problems) {
     glslang::TProgram program;
     for (const ParsedStage& stage : stages) program.addShader(stage.shader.get());
     if (!program.link(kMessages)) {
-        reportLinkMessages(program.getInfoLog(), sources, problems);
+        reportLinkMessages(program.getInfoLog(), {sources.begin(), sources.end()}, problems);
         return false;
     }
     if (!numberByName(program, sources, bindings, problems)) return false;
@@ -87,13 +87,13 @@ bool linkTogether(std::vector<ParsedStage>& stages, const std::vector<StageSourc
 
 /// Stages whose numbers are written out agree by those: what one declares otherwise than the other in parts that
 /// neither uses is nobody's business.
-bool linkEach(std::vector<ParsedStage>& stages, const std::vector<StageSource>& sources, std::vector<StageCode>& code,
+bool linkEach(std::vector<ParsedStage>& stages, std::span<const StageSource> sources, std::vector<StageCode>& code,
               Problems& problems) {
     for (const ParsedStage& stage : stages) {
         glslang::TProgram program;
         program.addShader(stage.shader.get());
         if (!program.link(kMessages)) {
-            reportLinkMessages(program.getInfoLog(), sources, problems);
+            reportLinkMessages(program.getInfoLog(), {sources.begin(), sources.end()}, problems);
             return false;
         }
         code.push_back(translate(program, stage.source->stage));
@@ -113,7 +113,7 @@ struct ShaderCompiler::Process {
 ShaderCompiler::ShaderCompiler() = default;
 ShaderCompiler::~ShaderCompiler() = default;
 
-std::vector<StageCode> ShaderCompiler::compile(const std::vector<StageSource>& sources, const BindingMap& bindings,
+std::vector<StageCode> ShaderCompiler::compile(std::span<const StageSource> sources, const BindingMap& bindings,
                                                Problems& problems) {
     if (!process_) process_ = std::make_unique<Process>();
     Problems own;
@@ -133,7 +133,6 @@ std::vector<StageCode> ShaderCompiler::compile(const std::vector<StageSource>& s
     std::vector<StageCode> code;
     const bool linked =
         numbered ? linkEach(stages, sources, code, own) : linkTogether(stages, sources, bindings, code, own);
-    for (std::size_t i = 0; linked && i < code.size(); ++i) checkSpirv(code[i], sources[i], own);
     return linked && !own.hasErrors() ? code : fail();
 }
 

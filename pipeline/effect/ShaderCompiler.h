@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -32,8 +33,8 @@ public:
     ~ShaderCompiler();
 
     /// All stages of one pass together, so that names agree. Empty when `problems` got an error.
-    std::vector<StageCode> compile(const std::vector<StageSource>& stages, const BindingMap& bindings,
-                                   Problems& problems);
+    /// Numbered stages do not depend on each other: they may be compiled one by one.
+    std::vector<StageCode> compile(std::span<const StageSource> stages, const BindingMap& bindings, Problems& problems);
     /// Changes when equal text may give other code: part of cache keys.
     static std::string version();
 

@@ -17,6 +17,7 @@ public:
     /// Without a folder nothing is found and nothing is kept.
     explicit SpirvCache(std::optional<std::filesystem::path> folder) : folder_(std::move(folder)) {}
 
+    bool keeps() const { return folder_.has_value(); }
     std::optional<CompiledPass> load(const std::string& key) const;
     void store(const std::string& key, const CompiledPass& pass) const;
 

@@ -1,4 +1,5 @@
-// SPIR-V is checked against the rules of Vulkan 1.2 before it is kept or used.
+// SPIR-V checked against the rules of Vulkan 1.2. It takes half as long as compiling: `effects compile` does it, frames
+// do not.
 #pragma once
 
 #include "effect/ShaderCompiler.h"

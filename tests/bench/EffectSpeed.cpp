@@ -50,7 +50,7 @@ std::vector<Pass> collect(const cocos::Roots& roots) {
             for (std::size_t t = 0; t < effect.techniques.size(); ++t) {
                 for (std::size_t p = 0; p < effect.techniques[t].passes.size(); ++p) {
                     Pass pass;
-                    pass.request = {name, t, p, {}, {}, true};
+                    pass.request = {.effect = name, .technique = t, .pass = p, .defines = {}, .where = {}};
                     library->get(pass.request, {});
                     for (const ShaderStageBits stage : {kVertexBit, kFragmentBit, kComputeBit})
                         if (std::string text = library->text(pass.request, stage); !text.empty())
@@ -106,12 +106,21 @@ double loadThousand(const cocos::Roots& roots, const std::vector<Pass>& passes) 
     return sum * static_cast<double>(kLoads) / static_cast<double>(loaded);
 }
 
+/// glslang's process-wide tables, kept between libraries.
+struct ShaderTables {
+    ShaderTables() { glslang::InitializeProcess(); }
+    ~ShaderTables() { glslang::FinalizeProcess(); }
+    ShaderTables(const ShaderTables&) = delete;
+    ShaderTables& operator=(const ShaderTables&) = delete;
+};
+
 int run(int argc, char** argv) {
     cocos::Roots roots;
     roots.engine = argc > 1 ? argv[1] : CREVICE_BENCH_COCOS;
     const fs::path cache = fs::temp_directory_path() / fmt::format("crevice-effect-bench-{}", getpid());
     setenv("XDG_CACHE_HOME", cache.c_str(), 1);
-    const std::vector<Pass> passes = collect(roots);  // warms glslang's tables up
+    const ShaderTables tables;
+    const std::vector<Pass> passes = collect(roots);  // warms them up
     if (passes.empty()) throw Error("no pass compiles", "give an engine checkout: crevice_effect_bench DIR");
     double alone = std::numeric_limits<double>::max(), whole = alone;
     for (int round = 0; round < kRounds; ++round) {

@@ -106,6 +106,7 @@ void CompileRun::compileEffect(const std::string& name) {
         for (std::size_t p = 0; p < passes.size(); ++p) compilePass(name, passes[p], t, p);
     }
     if (cocos_ != nullptr && options_.json) reflect(*effect);
+    library_.dropVariants();  // a folder with all variants would fill the memory
 }
 
 void CompileRun::reflect(const EffectAsset& effect) {
