@@ -13,6 +13,7 @@
 #include "effect/SpirvCache.h"
 #include "effect/SpirvCheck.h"
 #include "effect/VariantBuilder.h"
+#include "effect/VariantKeys.h"
 
 namespace crevice {
 namespace {
@@ -21,45 +22,6 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t kMaxEffectBytes = 16u << 20;
 constexpr std::size_t kRecentStages = 64;
-
-/// Everything of a request that can change the answer, as one text.
-std::string requestKey(const VariantRequest& request, const BindingMap& bindings, std::uint64_t generation) {
-    std::string key = fmt::format("{}\n{} {} {}\n", request.effect, request.technique, request.pass, generation);
-    if (!request.rebindLiterals) key += "literal numbers\n";
-    for (const auto& [name, value] : request.defines) key += fmt::format("{}={}\n", name, value);
-    for (const auto& [name, slot] : bindings) key += fmt::format("{}:{}.{}\n", name, slot.set, slot.binding);
-    return key;
-}
-
-/// Everything that a compiled pass is made of: the compiler's version, the texts with their places, and the numbers of
-/// the names that the texts contain.
-std::string contentKey(const std::vector<StageSource>& sources, const BindingMap& bindings) {
-    std::string content = ShaderCompiler::version() + "\n";
-    bool numbered = true;
-    for (const StageSource& source : sources) {
-        content += fmt::format("stage {}\n{}{}\n", static_cast<int>(source.stage), source.head, source.text);
-        for (const std::string& file : source.flat.files) content += file + "\n";
-        for (const FlatSource::Origin& origin : source.flat.lines) {
-            const std::int64_t place = (std::int64_t(origin.file) << 32) | origin.line;
-            content.append(reinterpret_cast<const char*>(&place), sizeof place);
-        }
-        numbered = numbered && source.numbered;
-    }
-    for (const auto& [name, slot] : bindings) {
-        // clang 14 captures no structured bindings by themselves.
-        const auto mentions = [&word = name](const StageSource& source) {
-            return source.text.find(word) != std::string::npos;
-        };
-        const bool named = !numbered && std::any_of(sources.begin(), sources.end(), mentions);
-        if (named) content += fmt::format("{}:{}.{}\n", name, slot.set, slot.binding);
-    }
-    return contentHash(content);
-}
-
-std::string variantName(const std::string& effect, const EffectPass& pass) {
-    if (!pass.compute.empty()) return effect + "|" + pass.compute;
-    return effect + "|" + pass.vertex + "|" + pass.fragment;
-}
 
 }  // namespace
 
@@ -227,9 +189,9 @@ std::vector<StageCode> EffectLibrary::State::codeOf(const std::vector<StageSourc
             contentHash(fmt::format("{}\n{}{}", static_cast<int>(source.stage), source.head, source.text));
         auto known = std::find_if(recent.begin(), recent.end(), [&](const auto& stage) { return stage.first == key; });
         if (known == recent.end()) {
-            auto made = compiler.compile({&source, 1}, bindings, problems);
-            if (made.empty()) continue;
-            recent.emplace_front(key, std::move(made.front()));
+            auto fresh = compiler.compile({&source, 1}, bindings, problems);
+            if (fresh.empty()) continue;
+            recent.emplace_front(key, std::move(fresh.front()));
             known = recent.begin();
             if (recent.size() > kRecentStages) recent.pop_back();
         }
