@@ -136,6 +136,35 @@ TEST_F(CommandsTest, EffectsCompileTakesMacros) {
     EXPECT_TRUE(has(run("effects compile copy --text").out, "#version 450"));
 }
 
+TEST_F(CommandsTest, EffectsCompileReadsCocosFolders) {
+    const std::string assets = "engine/editor/assets/";
+    std::filesystem::create_directories(path(assets + "effects"));
+    std::filesystem::create_directories(path(assets + "chunks"));
+    write(assets + "chunks/common.chunk", "vec4 half4() { return vec4(0.5); }\n");
+    write(assets + "effects/good.effect",
+          "CCEffect %{\n  techniques:\n  - passes: [ { vert: vs:vert, frag: fs:frag } ]\n}%\n"
+          "CCProgram vs %{\n  #include <common>\n  #if USE_PLACE\n    in vec4 a_place;\n  #endif\n"
+          "  vec4 vert () { return half4(); }\n}%\n"
+          "CCProgram fs %{\n  uniform sampler2D map;\n  vec4 frag () {\n  #if USE_PLACE\n    return v_missing;\n"
+          "  #endif\n    return texture(map, vec2(0.5)); }\n}%\n");
+    const Outcome good = run("effects compile engine/editor/assets/effects --engine engine --define UNKNOWN=1");
+    EXPECT_EQ(good.code, 0) << good.err;
+    EXPECT_TRUE(has(good.out, "1 compiled, 0 failed; 1 effect\n")) << good.out;
+    const Outcome bad = run("effects compile engine/editor/assets/effects --engine engine --define USE_PLACE=1");
+    EXPECT_EQ(bad.code, 1);
+    EXPECT_TRUE(has(bad.out, "FAILED ")) << bad.out;
+    EXPECT_TRUE(has(bad.out, ": not declared: v_missing\n")) << bad.out;
+    EXPECT_TRUE(has(bad.err, "good.effect:16:")) << bad.err;
+    const json all = json::parse(run("effects compile good --engine engine --json -q").out);
+    EXPECT_EQ(all["compiled"], 1);
+    const json& shader = all["effects"][0]["shaders"][0];
+    EXPECT_EQ(shader["name"], "good|vs:vert|fs:frag");
+    EXPECT_EQ(shader["attributes"],
+              json::parse(R"([{"name":"a_place","defines":["USE_PLACE"],"format":44,"location":0}])"));
+    EXPECT_EQ(shader["samplerTextures"][0]["binding"], 0);
+    EXPECT_EQ(run("effects compile good --engine nowhere").code, 2);
+}
+
 TEST_F(CommandsTest, InfoDescribesScenes) {
     const Outcome scene = run("info default");
     EXPECT_EQ(scene.code, 0) << scene.err;

@@ -74,7 +74,7 @@ inline void keepCompilerWarm() {
         source.head = "#version 450\n";
         source.text = "void main() {}\n";
         Problems problems;
-        warm.compile({source}, {}, problems);
+        warm.compile({&source, 1}, {}, problems);
         return !problems.hasErrors();
     }();
     (void)once;

@@ -1,0 +1,117 @@
+// What a request came to is found on disk without a text being made, until a file that it may read changes.
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <cstdlib>
+
+#include "EffectTestTools.h"
+#include "cocos/CocosEffects.h"
+#include "cocos/Fingerprint.h"
+
+namespace crevice::cocos {
+namespace {
+
+constexpr const char* kEffect = R"(CCEffect %{
+  techniques:
+  - passes: [ { vert: vs:vert, frag: fs:frag }, { vert: vs:vert, frag: fs:frag, phase: second } ]
+}%
+CCProgram vs %{
+  #include <place>
+  vec4 vert () { return place(); }
+}%
+CCProgram fs %{
+  #include <place>
+  #pragma builtin(global)
+  layout(set = 0, binding = 3) uniform sampler2D map;
+  vec4 frag () { return place() * texture(map, vec2(0.0)); }
+}%
+)";
+
+class CocosCache : public testing::Test {
+protected:
+    CocosCache() {
+        keepCompilerWarm();
+        if (const char* home = std::getenv("XDG_CACHE_HOME")) before_ = home;
+        setenv("XDG_CACHE_HOME", cache_.path().c_str(), 1);
+        project_.write("assets/e.effect", kEffect);
+        writePlace("1.0");
+    }
+    ~CocosCache() override {
+        if (before_.empty())
+            unsetenv("XDG_CACHE_HOME");
+        else
+            setenv("XDG_CACHE_HOME", before_.c_str(), 1);
+    }
+
+    void writePlace(const std::string& value) {
+        project_.write("assets/place.chunk", "vec4 place() { return vec4(" + value + "); }\n");
+        // Old enough that its time alone tells it apart.
+        std::filesystem::last_write_time(project_.path() / "assets/place.chunk",
+                                         std::filesystem::file_time_type::clock::now() - std::chrono::hours(++hours_));
+    }
+    Roots roots() const {
+        Roots roots;
+        roots.project = project_.path();
+        return roots;
+    }
+    /// A fresh library's counters after both passes, and how many notes it wrote.
+    EffectLibrary::Counters ask(bool check = false, int* notes = nullptr) {
+        const Log log(LogLevel::Note, [&](LogLevel, std::string_view) {
+            if (notes != nullptr) ++*notes;
+        });
+        EffectLibrary library(AssetRoots({}), log);
+        library.addFrontEnd(std::make_unique<CocosEffects>(roots()));
+        for (const std::size_t pass : {0u, 1u}) {
+            const EffectVariant& variant = library.get({"e", 0, pass, {}, {}, check}, {{"map", {0, 4}}});
+            EXPECT_EQ(variant.info.find("map")->slot, (BindingSlot{0, 4}));
+            EXPECT_TRUE(variant.info.find("map")->active);
+            EXPECT_FALSE(variant.vertex.empty());
+        }
+        return library.counters();
+    }
+
+    EffectFolder cache_, project_;
+    int hours_ = 0;
+    std::string before_;
+};
+
+TEST_F(CocosCache, RequestsAreAnsweredWithTheNotesTheyGave) {
+    int first = 0, second = 0;
+    EXPECT_EQ(ask(false, &first).fromDisk, 1u) << "both passes are one text";
+    const auto counters = ask(false, &second);
+    EXPECT_EQ(counters.compiled, 0u);
+    EXPECT_EQ(counters.fromDisk, 2u);
+    EXPECT_GT(first, 0) << "'map' was bound by name";
+    EXPECT_EQ(first, second);
+}
+
+TEST_F(CocosCache, AChangedChunkIsSeen) {
+    ask();
+    writePlace("2.0");
+    EXPECT_EQ(ask().compiled, 1u);
+    writePlace("1.0");
+    EXPECT_EQ(ask().compiled, 0u) << "the text is the first one again";
+}
+
+TEST_F(CocosCache, WhatWasNotValidatedIsCompiledToBeValidated) {
+    ask(false);
+    EXPECT_EQ(ask(true).compiled, 1u);
+    EXPECT_EQ(ask(true).compiled, 0u);
+    EXPECT_EQ(ask(false).compiled, 0u);
+}
+
+TEST_F(CocosCache, FingerprintsTellFilesApart) {
+    const std::string first = fingerprintOf(roots());
+    EXPECT_FALSE(first.empty());
+    EXPECT_EQ(fingerprintOf(roots()), first);
+    project_.write("assets/unrelated.txt", "x");
+    EXPECT_EQ(fingerprintOf(roots()), first);
+    project_.write("assets/deep/other.chunk", "a");
+    const std::string second = fingerprintOf(roots());
+    EXPECT_NE(second, first);
+    project_.write("assets/deep/other.chunk", "b");  // the same size, maybe the same time
+    EXPECT_NE(fingerprintOf(roots()), second);
+}
+
+}  // namespace
+}  // namespace crevice::cocos
