@@ -62,7 +62,9 @@ protected:
         EffectLibrary library(AssetRoots({}), log);
         library.addFrontEnd(std::make_unique<CocosEffects>(roots()));
         for (const std::size_t pass : {0u, 1u}) {
-            const EffectVariant& variant = library.get({"e", 0, pass, {}, {}, check}, {{"map", {0, 4}}});
+            const EffectVariant& variant = library.get(
+                {.effect = "e", .technique = 0, .pass = pass, .defines = {}, .where = {}, .checkOnly = check},
+                {{"map", {0, 4}}});
             EXPECT_EQ(variant.info.find("map")->slot, (BindingSlot{0, 4}));
             EXPECT_TRUE(variant.info.find("map")->active);
             EXPECT_FALSE(variant.vertex.empty());
