@@ -128,10 +128,15 @@ std::vector<SceneTexture> Images::decode() const {
     for (const auto& [index, result] : decoded)
         if (!result.image && !(file_.model.images[index].image.empty() && !file_.model.images[index].uri.empty()))
             file_.warn("images", index, result.problem + ": shown white");
+    std::map<int, std::size_t> usesLeft;
+    for (const Key& key : keys_) ++usesLeft[std::get<0>(key)];
     for (const auto& [image, sampler, srgb] : keys_) {
-        const Decoded& result = decoded.at(image);
+        Decoded& result = decoded.at(image);
+        const bool isLast = --usesLeft[image] == 0;  // takes the pixels; others copy them
         textures.push_back({.name = nameOf(file_.model.images[image], image),
-                            .image = result.image ? *result.image : white(),
+                            .image = !result.image ? white()
+                                     : isLast      ? std::move(*result.image)
+                                                   : *result.image,
                             .srgb = srgb,
                             .sampler = readSampler(file_, sampler)});
     }

@@ -9,7 +9,9 @@ namespace crevice::bench {
 
 struct ChildCost {
     double milliseconds = 0;      ///< Processor time, threads included.
-    std::uint64_t peakBytes = 0;  ///< Most resident memory.
+    /// Most resident memory. Linux counts what the caller held at most when it started the program: start programs
+    /// before loading much.
+    std::uint64_t peakBytes = 0;
 };
 
 /// Throws Error when the program fails.

@@ -2,6 +2,7 @@
 #include "Scale.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <ctime>
 #include <filesystem>
@@ -217,28 +218,39 @@ ChildCost renderCost(const std::string& scene) {
     return cost;
 }
 
-std::string emptyScene() {
-    const fs::path path = fs::temp_directory_path() / "crevice-empty.scene.json";
-    writeFileAtomically(path, R"({ "objects": [{ "primitive": "box" }] })");
-    return path.string();
+/// The same scene with pictures of one pixel: what the program, its shaders and the geometry take.
+fs::path withoutPictures(const fs::path& scene) {
+    const fs::path folder = fs::temp_directory_path() / "crevice-scale-small";
+    fs::remove_all(folder);
+    fs::create_directories(folder);
+    const std::vector<std::byte> pixel = encodePng(Image(1, 1, Format::RGBA8));
+    for (const fs::directory_entry& entry : fs::directory_iterator(scene.parent_path())) {
+        const fs::path to = folder / entry.path().filename();
+        if (entry.path().extension() == ".png")
+            writeFileAtomically(to, pixel);
+        else if (entry.is_regular_file())
+            fs::copy_file(entry.path(), to);
+    }
+    return folder / scene.filename();
 }
 
 void triangles(const ScaleOptions& options) {
     const fs::path path = fs::temp_directory_path() / "crevice-scale.glb";
     const auto bytes = double(writeManyTriangles(path, options.triangleMeshes, 500));
+    const ChildCost whole = renderCost(path.string());  // before this process grows: see ChildCost
     const double triangleCount = 5e5 * options.triangleMeshes;
     const Log log(LogLevel::Warning);
-    double loadMs = 1e9, uploadMs = 1e9, deviceBytes = 0;
+    double loadMs = 1e9, uploadMs = 1e9, deviceBytes = 0, own = 1;
     for (int i = 0; i < options.repeats; ++i) {
         const auto renderer = makeRenderer("forward");
         ProcessStopwatch watch;
         Scene scene = loadScene(path, {.log = log});
         loadMs = std::min(loadMs, watch.lap());
+        own = double(geometryBytes(scene));
         renderer->setScene(std::move(scene));
         uploadMs = std::min(uploadMs, watch.lap());
         deviceBytes = double(renderer->device().liveObjects().memoryBytes);
     }
-    const ChildCost whole = renderCost(path.string());
     fs::remove(path);
     fmt::print("Triangles: {:.1f} million, {:.0f} MB of geometry in one .glb\n", triangleCount / kMega, bytes / kMega);
     fmt::print("load {:.0f} ms, upload {:.0f} ms, `crevice render` {:.0f} ms, all process time\n", loadMs, uploadMs,
@@ -250,6 +262,9 @@ void triangles(const ScaleOptions& options) {
            {.name = "geometry read and uploaded, MB a second",
             .value = bytes / kMega / ((loadMs + uploadMs) * 1e-3),
             .most = 1e9},
+           {.name = "peak memory of `crevice render` / the scene's own size",
+            .value = double(whole.peakBytes) / own,
+            .most = 2.5},
            {.name = "peak memory of `crevice render`",
             .value = double(whole.peakBytes) / kMebi,
             .most = 3072,
@@ -257,31 +272,37 @@ void triangles(const ScaleOptions& options) {
            {.name = "Vulkan memory of it", .value = deviceBytes / kMebi, .most = 1.2 * 1024, .unit = "MiB"}});
 }
 
-void textures(const ScaleOptions& options) {
-    (void)options;
-    fmt::print("Textures: peak memory of `crevice render` above that for a single box, against the scene's own size\n");
-    fmt::print("{:>16} {:>10} {:>10} {:>10} {:>8} {:>10}\n", "scene", "textures", "geometry", "peak", "ratio",
-               "load ms");
+void textures(const ScaleOptions&) {
+    fmt::print("Textures: peak memory of `crevice render` above that with pictures of one pixel, MiB\n");
+    fmt::print("{:>16} {:>10} {:>10} {:>8} {:>10} {:>12}\n", "scene", "textures", "peak", "ratio", "load ms",
+               "wall ms");
     const Log log(LogLevel::Error);
-    const double base = double(renderCost(emptyScene()).peakBytes);
+    const fs::path made = writeManyPictures(fs::temp_directory_path() / "crevice-scale-pictures", 16, 2048);
     const fs::path scenes = fs::path(CREVICE_BENCH_DIR) / "../../../shared/scenes";
-    std::vector<Bar> bars;
-    for (const char* name : {"FlightHelmet/FlightHelmet.gltf", "atrium/atrium.gltf"}) {
-        const fs::path path = fs::exists(scenes / name) ? scenes / name : scenes / (std::string("khr_") + name);
+    std::vector<std::pair<fs::path, double>> peaks;
+    for (const fs::path& path : {made, scenes / "FlightHelmet/FlightHelmet.gltf", scenes / "atrium/atrium.gltf"}) {
         if (!fs::exists(path)) {
-            fmt::print("{:>16} is not here\n", name);
+            fmt::print("{:>16} is not here\n", path.stem().string());
             continue;
         }
-        ProcessStopwatch watch;
-        const Scene scene = loadScene(path, {.log = log, .allowOutside = true});
-        const double loadMs = watch.lap();
-        const double own = double(textureBytes(scene) + geometryBytes(scene));
-        const double peak = double(renderCost(path.string()).peakBytes) - base;
-        fmt::print("{:>16} {:>10.1f} {:>10.1f} {:>10.1f} {:>8.2f} {:>10.0f}\n", path.stem().string(),
-                   double(textureBytes(scene)) / kMebi, double(geometryBytes(scene)) / kMebi, peak / kMebi, peak / own,
-                   loadMs);
-        bars.push_back({.name = path.stem().string() + ": peak memory / own size", .value = peak / own, .most = 2.5});
+        const fs::path small = withoutPictures(path);
+        const double peak = double(renderCost(path.string()).peakBytes) - double(renderCost(small.string()).peakBytes);
+        fs::remove_all(small.parent_path());
+        peaks.emplace_back(path, peak);
     }
+    std::vector<Bar> bars;
+    for (const auto& [path, peak] : peaks) {
+        ProcessStopwatch watch;
+        const auto start = std::chrono::steady_clock::now();
+        const Scene scene = loadScene(path, {.log = log, .allowOutside = true});
+        const std::chrono::duration<double, std::milli> wall = std::chrono::steady_clock::now() - start;
+        const double loadMs = watch.lap(), own = double(textureBytes(scene));
+        const std::string name = path.stem().string();
+        fmt::print("{:>16} {:>10.1f} {:>10.1f} {:>8.2f} {:>10.0f} {:>12.0f}\n", name, own / kMebi, peak / kMebi,
+                   peak / own, loadMs, wall.count());
+        bars.push_back({.name = name + ": peak memory / decoded pictures", .value = peak / own, .most = 2.5});
+    }
+    fs::remove_all(made.parent_path());
     print(bars);
 }
 
@@ -289,7 +310,7 @@ void textures(const ScaleOptions& options) {
 
 void runScale(const ScaleOptions& options) {
     const std::vector<std::pair<std::string, std::function<void(const ScaleOptions&)>>> curves = {
-        {"objects", objects}, {"triangles", triangles}, {"lights", lights}, {"pixels", pixels}, {"textures", textures}};
+        {"textures", textures}, {"triangles", triangles}, {"objects", objects}, {"lights", lights}, {"pixels", pixels}};
     for (const auto& [name, run] : curves) {
         const bool wanted = options.curves.empty() ||
                             std::find(options.curves.begin(), options.curves.end(), name) != options.curves.end();

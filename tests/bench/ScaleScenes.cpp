@@ -10,6 +10,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "core/Error.h"
+#include "core/Files.h"
 #include "scene/Primitives.h"
 
 namespace crevice::bench {
@@ -152,6 +153,47 @@ std::uint64_t writeManyTriangles(const std::filesystem::path& path, std::uint32_
     }
     if (!out.flush()) throw Error(fmt::format("cannot write '{}'", path.string()), "is the disk full?");
     return binaryBytes;
+}
+
+std::filesystem::path writeManyPictures(const std::filesystem::path& folder, std::uint32_t count, std::uint32_t side) {
+    std::filesystem::create_directories(folder);
+    std::string images, textures, materials, meshes, nodes, roots;
+    for (std::uint32_t i = 0; i < count; ++i) {
+        Image image(side, side, Format::RGBA8);
+        for (std::size_t p = 0; p < image.pixels.size(); ++p)
+            image.pixels[p] =
+                std::byte(p % 4 == 3 ? 255 : (p / 4 % side + (p / 4 / side) * (i + 1) + 20 * (p % 4)) / 16);
+        writeImage(folder / fmt::format("{}.png", i), image);
+        const char* comma = i == 0 ? "" : ",";
+        images += fmt::format(R"({}{{"uri":"{}.png"}})", comma, i);
+        textures += fmt::format(R"({}{{"source":{}}})", comma, i);
+        materials += fmt::format(R"({}{{"pbrMetallicRoughness":{{"baseColorTexture":{{"index":{}}}}}}})", comma, i);
+        meshes += fmt::format(
+            R"({}{{"primitives":[{{"attributes":{{"POSITION":0,"TEXCOORD_0":1}},"indices":2,"material":{}}}]}})", comma,
+            i);
+        nodes += fmt::format(R"({}{{"mesh":{},"translation":[{},0,0]}})", comma, i, i);
+        roots += fmt::format("{}{}", comma, i);
+    }
+    // One square: three floats and two per corner, then six bytes of indices.
+    std::vector<char> bytes;
+    for (const glm::vec3& p : {glm::vec3(0, 0, 0), glm::vec3(1, 0, 0), glm::vec3(0, 1, 0), glm::vec3(1, 1, 0)})
+        append(bytes, p);
+    for (const glm::vec2& uv : {glm::vec2(0, 1), glm::vec2(1, 1), glm::vec2(0, 0), glm::vec2(1, 0)}) append(bytes, uv);
+    for (const int index : {0, 1, 2, 2, 1, 3}) append(bytes, static_cast<std::uint16_t>(index));
+    writeFileAtomically(folder / "squares.bin", std::string_view(bytes.data(), bytes.size()));
+    const std::filesystem::path path = folder / "pictures.gltf";
+    writeFileAtomically(
+        path,
+        fmt::format(
+            R"({{"asset":{{"version":"2.0"}},"buffers":[{{"byteLength":92,"uri":"squares.bin"}}],"bufferViews":[)"
+            R"({{"buffer":0,"byteLength":48}},{{"buffer":0,"byteOffset":48,"byteLength":32}},)"
+            R"({{"buffer":0,"byteOffset":80,"byteLength":12}}],"accessors":[)"
+            R"({{"bufferView":0,"componentType":5126,"count":4,"type":"VEC3","min":[0,0,0],"max":[1,1,0]}},)"
+            R"({{"bufferView":1,"componentType":5126,"count":4,"type":"VEC2"}},)"
+            R"({{"bufferView":2,"componentType":5123,"count":6,"type":"SCALAR"}}],)"
+            R"("images":[{}],"textures":[{}],"materials":[{}],"meshes":[{}],"nodes":[{}],"scenes":[{{"nodes":[{}]}}],"scene":0}})",
+            images, textures, materials, meshes, nodes, roots));
+    return path;
 }
 
 }  // namespace crevice::bench

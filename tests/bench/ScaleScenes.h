@@ -21,4 +21,8 @@ void addSmallLights(Scene& scene, std::uint32_t count);
 /// texture coordinates and 32-bit indices. Returns the bytes of its binary chunk.
 std::uint64_t writeManyTriangles(const std::filesystem::path& path, std::uint32_t meshes, std::uint32_t side);
 
+/// Writes a folder with a .gltf of `count` squares, each with a PNG of side × side pixels of its own. Returns the
+/// .gltf.
+std::filesystem::path writeManyPictures(const std::filesystem::path& folder, std::uint32_t count, std::uint32_t side);
+
 }  // namespace crevice::bench
