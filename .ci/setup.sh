@@ -9,7 +9,7 @@ packages=(
   glslang-dev glslang-tools spirv-tools libspirv-cross-c-shared-dev
   libglm-dev libtinygltf-dev nlohmann-json3-dev libyaml-cpp-dev
   libcli11-dev libfmt-dev libspdlog-dev
-  libspng-dev libturbojpeg0-dev libwebp-dev libopenexr-dev zlib1g-dev
+  libspng-dev libturbojpeg0-dev libwebp-dev libopenexr-dev libstb-dev zlib1g-dev
   libembree-dev libjs-chart.js
   libgtest-dev libgmock-dev libbenchmark-dev
 )

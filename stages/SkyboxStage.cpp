@@ -1,4 +1,4 @@
-// Fills what no geometry covered: the scene's gradient sky, or nothing.
+// Fills what no geometry covered: the scene's environment, its gradient sky, or nothing.
 #include "flow/RenderStage.h"
 
 namespace crevice {
@@ -24,7 +24,8 @@ public:
         setup.setProperty(draw_, "nadir", colorValue(sky.nadir));
     }
     void render(FrameContext& frame) override {
-        if (frame.scene().sky.enabled) frame.draw(draw_);
+        const std::optional<Environment>& environment = frame.scene().environment;
+        if (frame.scene().sky.enabled || (environment && environment->visible)) frame.draw(draw_);
     }
 
 private:
@@ -34,7 +35,8 @@ private:
 }  // namespace
 
 void registerSkyboxStage(StageRegistry& registry) {
-    registry.add<SkyboxStage>("SkyboxStage", {.priority = 16, .help = "The scene's sky behind everything."});
+    registry.add<SkyboxStage>("SkyboxStage",
+                              {.priority = 16, .help = "The scene's environment or sky behind everything."});
 }
 
 }  // namespace crevice

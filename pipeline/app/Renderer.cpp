@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "flow/FrameData.h"
+#include "scene/EnvironmentCube.h"
 #include "stages/Builtin.h"
 
 namespace crevice {
@@ -65,9 +66,13 @@ void Renderer::load(PipelineRequest request, const RunInfo& run) {
 void Renderer::setScene(Scene scene) {
     scene_ = std::move(scene);
     hasScene_ = true;
-    if (options_.defaultLight && addDefaultLight(scene_)) {
+    if (options_.defaultLight && addDefaultLight(scene_, options_.defaultEnvironment)) {
         options_.log.note(
             "the scene has no lights: a key light and ambient light were added (--no-default-light leaves it dark)");
+    }
+    if (scene_.environment && !scene_.environment->cube) {
+        scene_.environment->cube = cachedEnvironmentCube(
+            scene_.environment->radiance, options_.useCache ? cacheFolder("environments") : std::nullopt);
     }
     bounds_ = scene_.bounds();
     exposureEv_ = scene_.exposureEv ? *scene_.exposureEv : autoExposureEv(scene_);

@@ -29,11 +29,12 @@ namespace crevice {
 struct RendererOptions {
     std::string device{};   ///< Index or part of a name; empty = the best.
     bool validate = false;  ///< Vulkan validation, synchronization included.
-    bool useCache = true;   ///< SPIR-V on disk.
+    bool useCache = true;   ///< SPIR-V and blurred environments on disk.
     /// False: once a pipeline has the scene, scene() keeps no vertices, indices and pixels, and another pipeline must
     /// be loaded before setScene(). Saves half of a big scene's memory.
     bool keepScene = true;
-    bool defaultLight = true;  ///< A scene without lights gets a key light and ambient, with a note.
+    bool defaultLight = true;  ///< A scene without lights gets a key light, ambient and an environment, with a note.
+    bool defaultEnvironment = true;  ///< False: without the latter.
     AssetRoots roots = AssetRoots::standard();
     Log log{};
     DeviceFaults faults{};  ///< For tests.

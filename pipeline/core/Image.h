@@ -44,7 +44,7 @@ Image toEightBit(const Image& image, PngMapping mapping, float far = 1.0f);
 std::vector<std::byte> encodePng(const Image& image);
 /// EXR bytes: full float channels (R, RG, RGB(A)), zip.
 std::vector<std::byte> encodeExr(const Image& image);
-/// Reads PNG, JPEG, WebP (8/16 bit → RGBA8) or EXR (→ RGBA32F) by content. Throws Error.
+/// Reads PNG, JPEG, WebP (8/16 bit → RGBA8) EXR or Radiance .hdr (→ RGBA32F) by content. Throws Error.
 Image readImage(const std::filesystem::path& path);
 Image readImage(const std::filesystem::path& path, const Limits& limits);
 /// Chooses PNG or EXR by extension and writes aside, then renames. Throws Error for another extension.

@@ -3,6 +3,7 @@
 
 #include "core/Exr.h"
 #include "core/Files.h"
+#include "core/Hdr.h"
 #include "core/Image.h"
 #include "core/Picture.h"
 
@@ -25,6 +26,7 @@ Image readImage(const std::filesystem::path& path, const Limits& limits) {
     const std::vector<std::byte> bytes = readBytes(path, limits.maxFileBytes);
     if (readPictureHeader(bytes)) return decodePicture(bytes, path.string(), limits);
     if (looksLikeExr(bytes)) return decodeExr(bytes, path.string(), limits);
+    if (looksLikeHdr(bytes)) return decodeHdr(bytes, path.string(), limits);
     throw Error(fmt::format("'{}' is no PNG, JPEG, WebP or EXR image, or is cut off", path.string()),
                 "convert it to PNG or EXR, or fetch it again");
 }

@@ -60,6 +60,14 @@ struct PunctualLight {
 };
 static_assert(sizeof(PunctualLight) == 64);
 
+/// Mirrors `CCEnvironment` in environment-light.chunk (std430).
+struct EnvironmentBlock {
+    glm::vec4 info{0, 0, 1, 0};  ///< intensity, last level of cc_environment, cosine and sine of the rotation
+    glm::vec4 view{0};           ///< x: level that SkyboxStage shows
+    glm::vec4 irradiance[9]{};   ///< rgb over pi, not scaled: factors of shIrradiancePolynomial()
+};
+static_assert(sizeof(EnvironmentBlock) == 176);
+
 /// Mirrors `CCLocal` in cc-local.chunk, for effects that take the object's matrix from a block.
 struct LocalBlock {
     glm::mat4 world{1}, worldIT{1};

@@ -46,6 +46,11 @@ FrameView guardedView(const FrameView& view, std::uint32_t guard) {
     return wide;
 }
 
+Ambient ambientOf(const Scene& scene) {
+    if (!scene.environment) return scene.ambient.value_or(Ambient{});
+    return {.sky = scene.environment->diffuse({0, 1, 0}), .ground = scene.environment->diffuse({0, -1, 0})};
+}
+
 GlobalBlock globalBlock(const FrameView& view) {
     const glm::vec2 size(view.extent);
     GlobalBlock block;
@@ -69,7 +74,7 @@ CameraBlock cameraBlock(const FrameView& view, const Scene& scene) {
         block.mainLitDir = glm::vec4(main->direction, main->castsShadow ? 1.0f : 0.0f);
         block.mainLitColor = glm::vec4(main->color, main->intensity);
     }
-    const Ambient ambient = scene.ambient.value_or(Ambient{});
+    const Ambient ambient = ambientOf(scene);
     block.ambientSky = glm::vec4(ambient.sky, 1.0f);
     block.ambientGround = glm::vec4(ambient.ground, 0.0f);
     block.fogColor = glm::vec4(scene.fog.color, 1.0f);
@@ -124,7 +129,8 @@ float autoExposureEv(const Scene& scene) {
         const float power = luminance(light.color) * light.intensity;
         illuminance += light.type == LightType::Directional ? power * 0.70710678f : power / (reach * reach);
     }
-    if (scene.ambient) illuminance += kPi * 0.5f * (luminance(scene.ambient->sky) + luminance(scene.ambient->ground));
+    const Ambient ambient = ambientOf(scene);
+    illuminance += kPi * 0.5f * (luminance(ambient.sky) + luminance(ambient.ground));
     if (illuminance <= 0) return std::log2(1.0f / 1.2f);  // nothing but emission: exposure 1
     const float exposure = kWhiteAtAutoExposure * kPi / illuminance;
     return std::log2(1.0f / (1.2f * exposure));

@@ -18,6 +18,10 @@ float automaticLength(const Aabb& scene);
 /// The view with `guard` more pixels on each side: what shows at a pixel p of the frame shows at p + guard.
 FrameView guardedView(const FrameView& view, std::uint32_t guard);
 
+/// What level surfaces receive: of the scene's environment, else its ambient light. For effects that know no
+/// environment.
+Ambient ambientOf(const Scene& scene);
+
 GlobalBlock globalBlock(const FrameView& view);
 CameraBlock cameraBlock(const FrameView& view, const Scene& scene);
 

@@ -11,6 +11,7 @@
 #include "flow/FrameBlocks.h"
 #include "flow/ProgramCompile.h"
 #include "flow/RenderStage.h"
+#include "flow/SceneDefines.h"
 #include "flow/StageChecks.h"
 #include "flow/StageRegistry.h"
 #include "flow/Wiring.h"
@@ -98,10 +99,7 @@ FrameProgram::FrameProgram(PipelineDesc desc, const StageRegistry& registry, Eff
     makeStages(registry, run, problems);
     problems.throwIfErrors();
     nameGlobals();
-    ProgramCompiler compiler(desc_, library_, globals_);
-    for (StageProgram& stage : stages_) {
-        collect(problems, [&] { compiler.compileDraws(stage, problems); });
-    }
+    compileDraws(sceneDefines(nullptr), problems);
     problems.throwIfErrors();
     logOnce(problems);
 }
@@ -126,6 +124,15 @@ void FrameProgram::makeStages(const StageRegistry& registry, const RunInfo& run,
     stages_ = makePrograms(desc_, registry, run, problems);
 }
 
+void FrameProgram::compileDraws(const Defines& defines, Problems& problems) {
+    ProgramCompiler compiler(desc_, library_, globals_, defines);
+    for (StageProgram& stage : stages_) {
+        stage.draws.clear();
+        collect(problems, [&] { compiler.compileDraws(stage, problems); });
+    }
+    drawDefines_ = defines;
+}
+
 void FrameProgram::nameGlobals() {
     GlobalNames names(desc_.files, desc_.profile);
     for (const TargetDesc& target : desc_.targets) names.addTarget(target.name, target.binding, target.where);
@@ -141,7 +148,9 @@ void FrameProgram::nameGlobals() {
 
 void FrameProgram::prepare(const Scene* scene) {
     Problems problems;
-    ProgramCompiler compiler(desc_, library_, globals_);
+    const Defines defines = sceneDefines(scene);
+    if (defines != drawDefines_) compileDraws(defines, problems);
+    ProgramCompiler compiler(desc_, library_, globals_, defines);
     for (StageProgram& stage : stages_) {
         stage.queues.clear();
         for (const QueueDeclaration& queue : stage.declaration.queues) {

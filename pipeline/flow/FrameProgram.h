@@ -95,6 +95,7 @@ public:
 private:
     void makeStages(const StageRegistry& registry, const RunInfo& run, Problems& problems);
     void nameGlobals();
+    void compileDraws(const Defines& defines, Problems& problems);
     StageUse useOf(const StageProgram& stage, Problems& problems) const;
     void logOnce(const Problems& problems);
     static void checkListedReads(const StageDesc& desc, const StageUse& use, Problems& problems);
@@ -104,6 +105,7 @@ private:
     const Log& log_;
     GlobalLayout globals_;
     std::vector<StageProgram> stages_;
+    Defines drawDefines_;  ///< Of the scene, that draws were compiled with.
     FramePlan plan_;
     std::set<std::string> logged_;
 };

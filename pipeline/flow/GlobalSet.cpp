@@ -120,31 +120,20 @@ GlobalSet::GlobalSet(Device& device, DescriptorPool& pool, SamplerCache& sampler
     : device_(device),
       samplers_(samplers),
       layout_(layout),
+      defaults_(defaults),
       setLayout_(device, layoutBindings(layout), "set 0"),
       ring_(device, {.size = kRingBytes, .usage = BufferUsage::Uniform, .name = "frame blocks"}),
       emptyStorage_(device, {.size = kEmptyStorageBytes, .usage = BufferUsage::Storage, .name = "empty storage"}),
       set_(pool.allocate(setLayout_, "global set")) {
     alignment_ = std::max<std::uint64_t>(device.limits().minUniformBufferOffsetAlignment, 256);
     std::memset(emptyStorage_.data().data(), 0, kEmptyStorageBytes);
-    const VkSampler point = samplers.get(samplerKey(SamplerKind::PointClamp));
     for (const GlobalSlot& slot : layout.slots()) {
-        switch (slot.kind) {
-            case GlobalKind::UniformBlock:
-                blockIndex_.emplace(slot.name, offsets_.size());
-                offsets_.push_back(0);
-                zeroBytes_ = std::max<std::uint64_t>(zeroBytes_, slot.size);
-                set_.writeUniformBuffer(slot.binding, ring_, 0, slot.size);
-                break;
-            case GlobalKind::StorageBuffer:
-                set_.writeStorageBuffer(slot.binding, emptyStorage_);
-                break;
-            case GlobalKind::Sampler2D:
-                set_.writeTexture(slot.binding, defaults.white, point);
-                break;
-            case GlobalKind::SamplerCube:
-                set_.writeTexture(slot.binding, defaults.blackCube, point);
-                break;
+        if (slot.kind == GlobalKind::UniformBlock) {
+            blockIndex_.emplace(slot.name, offsets_.size());
+            offsets_.push_back(0);
+            zeroBytes_ = std::max<std::uint64_t>(zeroBytes_, slot.size);
         }
+        writeDefault(slot);
     }
     set_.update();
     assert(set_.isComplete());
@@ -153,10 +142,34 @@ GlobalSet::GlobalSet(Device& device, DescriptorPool& pool, SamplerCache& sampler
     beginFrame();
 }
 
-void GlobalSet::writeImage(std::string_view name, const GpuTexture& texture, SamplerKind sampler) {
+void GlobalSet::writeDefault(const GlobalSlot& slot) {
+    const VkSampler point = samplers_.get(samplerKey(SamplerKind::PointClamp));
+    switch (slot.kind) {
+        case GlobalKind::UniformBlock:
+            set_.writeUniformBuffer(slot.binding, ring_, 0, slot.size);
+            break;
+        case GlobalKind::StorageBuffer:
+            set_.writeStorageBuffer(slot.binding, emptyStorage_);
+            break;
+        case GlobalKind::Sampler2D:
+            set_.writeTexture(slot.binding, defaults_.white, point);
+            break;
+        case GlobalKind::SamplerCube:
+            set_.writeTexture(slot.binding, defaults_.blackCube, point);
+            break;
+    }
+}
+
+void GlobalSet::writeDefault(std::string_view name) {
     const GlobalSlot* slot = layout_.find(name);
     assert(slot);
-    set_.writeTexture(slot->binding, texture, samplers_.get(samplerKey(sampler)));
+    writeDefault(*slot);
+}
+
+void GlobalSet::writeImage(std::string_view name, const GpuTexture& texture, const SamplerKey& sampler) {
+    const GlobalSlot* slot = layout_.find(name);
+    assert(slot);
+    set_.writeTexture(slot->binding, texture, samplers_.get(sampler));
 }
 
 void GlobalSet::writeBuffer(std::string_view name, const Buffer& buffer) {

@@ -36,8 +36,13 @@ public:
     const SetLayout& setLayout() const { return setLayout_; }
 
     /// Before update(): what a slot holds from now on. The GPU must not be using the set.
-    void writeImage(std::string_view name, const GpuTexture& texture, SamplerKind sampler);
+    void writeImage(std::string_view name, const GpuTexture& texture, const SamplerKey& sampler);
+    void writeImage(std::string_view name, const GpuTexture& texture, SamplerKind sampler) {
+        writeImage(name, texture, samplerKey(sampler));
+    }
     void writeBuffer(std::string_view name, const Buffer& buffer);
+    /// Back to what the slot held at first: white, a black cube, zeroes.
+    void writeDefault(std::string_view name);
     void update() { set_.update(); }
 
     /// The ring starts over; all blocks are zero until they are uploaded. The last frame must have finished.
@@ -52,9 +57,12 @@ public:
     void bind(Commands& commands) const;
 
 private:
+    void writeDefault(const GlobalSlot& slot);
+
     Device& device_;
     SamplerCache& samplers_;
     const GlobalLayout& layout_;
+    const DefaultTextures& defaults_;
     SetLayout setLayout_;
     Buffer ring_;
     Buffer emptyStorage_;

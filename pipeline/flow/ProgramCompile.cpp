@@ -71,9 +71,13 @@ void addTextures(SurfaceProgram& surface, const std::vector<std::pair<std::strin
 
 }  // namespace
 
-ProgramCompiler::ProgramCompiler(const PipelineDesc& desc, EffectLibrary& library, const GlobalLayout& globals)
+ProgramCompiler::ProgramCompiler(const PipelineDesc& desc, EffectLibrary& library, const GlobalLayout& globals,
+                                 Defines sceneDefines)
     : desc_(desc), library_(library), globals_(globals) {
-    if (isCocos(desc.profile)) macros_ = pipelineMacros(desc);
+    if (isCocos(desc.profile))
+        macros_ = pipelineMacros(desc);
+    else
+        sceneDefines_ = std::move(sceneDefines);
 }
 
 const EffectVariant& ProgramCompiler::compile(const StageProgram& stage, const std::string& effect, PassChoice choice,
@@ -90,8 +94,10 @@ const EffectVariant& ProgramCompiler::compile(const StageProgram& stage, const s
     library_.asset(effect, request.where);
     const std::vector<DefineInfo> infos = library_.discoverDefines(effect, choice.technique, choice.pass);
     for (const DefineInfo& info : infos) known.insert(info.name);
-    for (const auto& [name, value] : offered) {
-        if (known.contains(name)) request.defines.emplace(name, value);
+    for (const Defines* defines : {&offered, static_cast<const Defines*>(&sceneDefines_)}) {
+        for (const auto& [name, value] : *defines) {
+            if (known.contains(name)) request.defines.emplace(name, value);
+        }
     }
     for (const auto& [name, value] : macros_) {
         if (known.contains(name)) request.defines.insert_or_assign(name, value);

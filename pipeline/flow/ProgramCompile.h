@@ -7,7 +7,9 @@ namespace crevice {
 
 class ProgramCompiler {
 public:
-    ProgramCompiler(const PipelineDesc& desc, EffectLibrary& library, const GlobalLayout& globals);
+    /// `sceneDefines` are offered to every effect of our own dialect, see flow/SceneDefines.h.
+    ProgramCompiler(const PipelineDesc& desc, EffectLibrary& library, const GlobalLayout& globals,
+                    Defines sceneDefines);
 
     void compileDraws(StageProgram& stage, Problems& problems);
     /// Every material of the scene that the queue's phase and order take.
@@ -33,6 +35,7 @@ private:
     EffectLibrary& library_;
     const GlobalLayout& globals_;
     Defines macros_;  ///< The pipeline's own, over those of stages and materials.
+    Defines sceneDefines_;
 };
 
 }  // namespace crevice

@@ -97,8 +97,18 @@ void RenderPipeline::writeLights(const Scene& scene) {
     const std::vector<std::byte> grid = lightGridBytes(makeLightGrid(scene, scene_->bounds(), exposure));
     lightGrid_ = Buffer(device_, {.size = grid.size(), .usage = BufferUsage::Storage, .name = "light grid"}, grid);
     globals_.writeBuffer("CCLightGrid", lightGrid_);
+    prepareEnvironment(scene);
     locals_.writeLights(forwardLightBlock(scene));
     globals_.update();
+}
+
+void RenderPipeline::prepareEnvironment(const Scene& scene) {
+    EnvironmentGpu::writeNone(globals_, program_.globals());
+    globals_.update();  // before the old one goes
+    environment_.reset();
+    if (!scene.environment) return;
+    environment_ = std::make_unique<EnvironmentGpu>(device_, *scene.environment);
+    environment_->write(globals_, program_.globals());
 }
 
 void RenderPipeline::activate(glm::uvec2 extent) {

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/Image.h"
+#include "flow/EnvironmentGpu.h"
 #include "flow/FrameProgram.h"
 #include "flow/StageExecution.h"
 #include "gfx/Readback.h"
@@ -64,6 +65,7 @@ public:
 private:
     struct Kept;
     void prepare(const Scene& scene, Scene* releasing);
+    void prepareEnvironment(const Scene& scene);
     void activate(glm::uvec2 extent);
     void writeLights(const Scene& scene);
     void uploadFrameBlocks(const FrameView& view);
@@ -87,6 +89,7 @@ private:
     std::unique_ptr<Timestamps> timestamps_;
     std::unique_ptr<SceneGpu> scene_;
     Buffer lights_, lightGrid_;
+    std::unique_ptr<EnvironmentGpu> environment_;
     std::unique_ptr<TargetPool> targets_;
     std::unique_ptr<ExecutionContext> context_;
     std::vector<std::unique_ptr<StageExecution>> executions_;

@@ -19,6 +19,8 @@ constexpr BuiltInSlot kOwn[] = {
     {"CCSpotShadow", kBlock, 28, 96},
     {"CCPunctualLights", GlobalKind::StorageBuffer, 30, 0},
     {"CCLightGrid", GlobalKind::StorageBuffer, 31, 0},
+    {"CCEnvironment", GlobalKind::StorageBuffer, 60, 0},
+    {"cc_environmentBrdf", k2D, 61, 0},
 };
 
 constexpr BuiltInSlot kOwnTargets[] = {

@@ -54,8 +54,8 @@ glm::vec2 UvTransform::apply(const glm::vec2& uv) const {
     return {glm::dot(row(0), place), glm::dot(row(1), place)};
 }
 
-bool addDefaultLight(Scene& scene) {
-    if (!scene.lights.empty() || scene.ambient) return false;
+bool addDefaultLight(Scene& scene, bool environment) {
+    if (!scene.lights.empty() || scene.ambient || scene.environment) return false;
 
     // From the upper front left of world space; front is +z, where frameBounds() stands.
     Light key;
@@ -66,6 +66,7 @@ bool addDefaultLight(Scene& scene) {
     key.intensity = 0.32f * glm::pi<float>() / -key.direction.y;
     scene.lights.push_back(key);
     scene.ambient = Ambient{.sky = {0.17f, 0.18f, 0.19f}, .ground = {0.09f, 0.085f, 0.08f}};
+    if (environment) scene.environment = defaultEnvironment();
     return true;
 }
 

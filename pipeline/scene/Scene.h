@@ -12,6 +12,7 @@
 #include "core/Document.h"
 #include "core/Image.h"
 #include "scene/Camera.h"
+#include "scene/Environment.h"
 
 namespace crevice {
 
@@ -166,7 +167,8 @@ struct Scene {
     std::vector<Instance> instances;
     std::vector<Light> lights;
     std::vector<Camera> cameras;
-    std::optional<Ambient> ambient;  ///< Nothing: addDefaultLight() decides.
+    std::optional<Ambient> ambient;          ///< Nothing: addDefaultLight() decides.
+    std::optional<Environment> environment;  ///< Replaces `ambient` wherever an effect can look it up.
     Fog fog;
     Sky sky;
     std::optional<float> exposureEv;  ///< Nothing = automatic.
@@ -174,7 +176,8 @@ struct Scene {
     Aabb bounds() const;  ///< World space, all instances.
 };
 
-/// A key light and ambient for a scene without any light: documented in docs/scenes.md. Returns true when it added one.
-bool addDefaultLight(Scene& scene);
+/// A key light, ambient and environment for a scene without any light: documented in docs/scenes.md. Returns true when
+/// it added them. `environment` false: only the first two.
+bool addDefaultLight(Scene& scene, bool environment = true);
 
 }  // namespace crevice

@@ -10,6 +10,7 @@
 #include "core/Files.h"
 #include "core/Text.h"
 #include "scene/SceneFields.h"
+#include "scene/SceneFileLookup.h"
 
 namespace crevice {
 
@@ -43,6 +44,7 @@ public:
             readStruct(*sky, "the sky", scene_.sky);
             scene_.sky.enabled = true;
         }
+        if (const Value* environment = reader.take("environment")) readEnvironment(*environment);
         readExposure(reader.take("exposure"));
         reader.finish();
         problems_.throwIfErrors();
@@ -78,30 +80,13 @@ private:
                             "name a .gltf or .glb file");
             return;
         }
-        const std::optional<fs::path> path = findGltf(*value, value->string());
+        const std::optional<fs::path> path = findSceneFile(*value, folder_, options_, "the glTF", problems_);
         if (!path) return;
         try {
             scene_ = loadGltf(*path, options_);
         } catch (const Error& error) {
             problems_.add(error);
         }
-    }
-
-    std::optional<fs::path> findGltf(const Value& value, const std::string& name) {
-        std::vector<fs::path> roots = options_.allowedRoots;
-        roots.insert(roots.begin(), folder_);
-        const AssetRoots allowed(roots);
-        for (const fs::path& root : roots) {
-            const fs::path path = root / name;
-            std::error_code error;
-            if (!fs::is_regular_file(path, error)) continue;
-            if (options_.allowOutside || allowed.contains(path)) return path;
-            problems_.error(value.where(), fmt::format("'{}' lies outside the scene's folder", name),
-                            "put the glTF beside the scene document or below it");
-            return std::nullopt;
-        }
-        problems_.error(value.where(), fmt::format("no file '{}'", name), "the path is relative to the scene document");
-        return std::nullopt;
     }
 
     void readMaterials(const Value* materials) {
@@ -344,6 +329,24 @@ private:
         scene_.fog = fields.make();
         if (scene_.fog.type == FogType::Linear && scene_.fog.end <= scene_.fog.start)
             problems_.error(value.where(), "'end' of the fog is not beyond 'start'", "exchange the two");
+    }
+
+    void readEnvironment(const Value& value) {
+        EnvironmentFields fields;
+        const std::size_t problemsBefore = problems_.all().size();
+        readStruct(value, "the environment", fields);
+        if (problems_.all().size() != problemsBefore) return;
+        try {
+            if (fields.isSky()) {
+                scene_.environment = skyEnvironment(scene_.sky);
+            } else if (const auto path =
+                           findSceneFile(*value.find("file"), folder_, options_, "the environment", problems_)) {
+                scene_.environment = loadEnvironment(*path, options_.log, options_.limits);
+            }
+        } catch (const Error& error) {
+            problems_.add(error);
+        }
+        if (scene_.environment) fields.apply(*scene_.environment);
     }
 
     void readExposure(const Value* value) {

@@ -140,6 +140,21 @@ void visitFields(ParamVisitor& v, Sky& f) {
     v.field("nadir", f.nadir, color("Straight down"));
 }
 
+void visitFields(ParamVisitor& v, EnvironmentFields& f) {
+    v.field("file", f.file, {.help = "A panorama (.hdr, .exr), or sky: the gradient of the scene's sky"});
+    v.field("rotation", f.rotation, between(-3600, 3600, "degrees", "Turned about +y, counterclockwise from above"));
+    v.field("intensity", f.intensity, between(0, kBright, "", "Factor of its radiance"));
+    v.field("visible", f.visible, {.help = "Whether it is the background"});
+    v.field("blur", f.blur, between(0, 1, "", "Of the background: 0 = sharp, 1 = as a dull surface mirrors it"));
+}
+
+void EnvironmentFields::apply(Environment& environment) const {
+    environment.rotation = glm::radians(rotation);
+    environment.intensity = intensity;
+    environment.visible = visible;
+    environment.blur = blur;
+}
+
 glm::mat4 PlacementFields::matrix() const {
     glm::mat4 m = glm::translate(glm::mat4(1), position);
     m = glm::rotate(m, glm::radians(rotation.z), {0, 0, 1});
@@ -226,6 +241,7 @@ std::vector<SceneFieldTable> sceneFieldTables() {
     add("ambient", Ambient{});
     add("fog", FogFields{});
     add("sky", Sky{});
+    add("environment", EnvironmentFields{});
     return tables;
 }
 

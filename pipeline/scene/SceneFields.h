@@ -65,6 +65,16 @@ struct FogFields {
     Fog make() const;
 };
 
+/// `file` "sky": the gradient of the scene's sky, computed.
+struct EnvironmentFields {
+    std::string file = "sky";
+    float rotation = 0, intensity = 1, blur = 0;  ///< Degrees here.
+    bool visible = true;
+    bool isSky() const { return file == "sky"; }
+    /// Turns, scales and shows an environment as the fields say.
+    void apply(Environment& environment) const;
+};
+
 void visitFields(ParamVisitor& visitor, PrimitiveFields& fields);
 void visitFields(ParamVisitor& visitor, PlacementFields& fields);
 void visitFields(ParamVisitor& visitor, ArrayFields& fields);
@@ -74,6 +84,7 @@ void visitFields(ParamVisitor& visitor, MaterialFields& fields);
 void visitFields(ParamVisitor& visitor, FogFields& fields);
 void visitFields(ParamVisitor& visitor, Ambient& fields);
 void visitFields(ParamVisitor& visitor, Sky& fields);
+void visitFields(ParamVisitor& visitor, EnvironmentFields& fields);
 
 /// The mesh of a primitive.
 Mesh makePrimitive(const PrimitiveFields& fields);

@@ -5,7 +5,7 @@
 #include <type_traits>
 
 #include "core/Files.h"
-#include "truth/CacheFile.h"
+#include "core/CacheFile.h"
 
 namespace crevice {
 namespace {

@@ -20,6 +20,7 @@ render $scenes/primitives.scene.json -o $out/primitives.png --size 480x270 --set
 render $scenes/spot.scene.json -o $out/spot.png --size 480x270
 render $scenes/fog.scene.json -o $out/fog.png --size 480x270
 render $scenes/glass.scene.json -o $out/glass.png --size 480x270
+render $scenes/environment.scene.json -o $out/environment.png --size 480x270
 ao=(default --size 320x180 --option ao=gtao --option radius=0.6)
 render "${ao[@]}" -p ao-deferred -o $out/light-ambient.png
 render "${ao[@]}" -p ao-deferred -o $out/light-direct.png --option directStrength=1

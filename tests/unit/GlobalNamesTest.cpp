@@ -32,11 +32,12 @@ TEST(GlobalNames, BuiltInSlotsHaveTheNumbersOfTheContract) {
         std::uint32_t binding, size;
     };
     const std::vector<Expected> expected{
-        {"CCGlobal", GlobalKind::UniformBlock, 0, 48},      {"CCCamera", GlobalKind::UniformBlock, 1, 544},
-        {"CCShadow", GlobalKind::UniformBlock, 2, 304},     {"cc_shadowMap", GlobalKind::Sampler2D, 3, 0},
-        {"cc_environment", GlobalKind::SamplerCube, 4, 0},  {"cc_spotLightingMap", GlobalKind::Sampler2D, 5, 0},
-        {"CCSpotShadow", GlobalKind::UniformBlock, 28, 96}, {"CCPunctualLights", GlobalKind::StorageBuffer, 30, 0},
-        {"CCLightGrid", GlobalKind::StorageBuffer, 31, 0}};
+        {"CCGlobal", GlobalKind::UniformBlock, 0, 48},       {"CCCamera", GlobalKind::UniformBlock, 1, 544},
+        {"CCShadow", GlobalKind::UniformBlock, 2, 304},      {"cc_shadowMap", GlobalKind::Sampler2D, 3, 0},
+        {"cc_environment", GlobalKind::SamplerCube, 4, 0},   {"cc_spotLightingMap", GlobalKind::Sampler2D, 5, 0},
+        {"CCSpotShadow", GlobalKind::UniformBlock, 28, 96},  {"CCPunctualLights", GlobalKind::StorageBuffer, 30, 0},
+        {"CCLightGrid", GlobalKind::StorageBuffer, 31, 0},   {"CCEnvironment", GlobalKind::StorageBuffer, 60, 0},
+        {"cc_environmentBrdf", GlobalKind::Sampler2D, 61, 0}};
     ASSERT_EQ(layout.slots().size(), expected.size());
     for (std::size_t i = 0; i < expected.size(); ++i) {
         const GlobalSlot& slot = layout.slots()[i];
@@ -170,7 +171,7 @@ TEST(GlobalNames, TheSameBlockTwiceIsOneBlock) {
     names.addBlock("CCShadow", 304, {}, kParent);
     names.addBlock("CCPunctualLights", 16, {}, kParent);
     const GlobalLayout layout = names.freeze();
-    EXPECT_EQ(layout.slots().size(), 10u);  // nine of ours, and it
+    EXPECT_EQ(layout.slots().size(), 12u);  // eleven of ours, and it
     EXPECT_EQ(number(layout, "CCShadow"), 2u);
 }
 
@@ -256,7 +257,7 @@ TEST(GlobalNames, SevenUniformBlocksFitAndEightDoNot) {
         names->addBlock("CCB", 16, {}, kParent);
         names->addBlock("CCD", 16, {}, kParent);
     }
-    EXPECT_EQ(fits.freeze().slots().size(), 12u);  // nine of ours, and three
+    EXPECT_EQ(fits.freeze().slots().size(), 14u);  // eleven of ours, and three
     full.addBlock("CCC", 16, {}, kChild);
     const auto problems = refusals(full);
     ASSERT_EQ(problems.size(), 1u);

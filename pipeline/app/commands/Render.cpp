@@ -73,6 +73,9 @@ void RenderRun::loadScene(std::size_t index) {
     progress_.show(fmt::format("{}/{} {}: loading …", index + 1, job_.items.size(), item.scene.name));
     watch_.lap();
     scene_ = loadSceneFile(item.scene, pipeline_.roots(), makeLog(options_.console, progress_), options_.loading);
+    Limits limits;
+    for (const std::string& limit : options_.loading.limits) setLimit(limits, limit);
+    job_.environment.apply(scene_, makeLog(options_.console, progress_), limits);
     camera_ = chooseCamera(job_.view, scene_);
     timings_.loadMs += watch_.lap();
 }
@@ -85,6 +88,7 @@ void RenderRun::start() {
                                                            .useCache = !options_.noCache,
                                                            .keepScene = false,
                                                            .defaultLight = !options_.noDefaultLight,
+                                                           .defaultEnvironment = !job_.environment.isNone(),
                                                            .roots = pipeline_.roots(),
                                                            .log = makeLog(options_.console, progress_)});
     timings_.deviceMs = watch_.lap();

@@ -115,17 +115,19 @@ void addRenderOptions(CLI::App& command, RenderOptions& options) {
         ->type_name("FILE.json");
     command.add_option("--device", options.device, "Device to use: see `crevice info`")->type_name("NAME|INDEX");
     command.add_flag("--validate", options.validate, "Vulkan validation; any message is a failure");
-    command.add_flag("--no-cache", options.noCache, "Compile all shaders anew");
+    command.add_flag("--no-cache", options.noCache, "Compile shaders and blur environments anew");
     command.add_flag("--no-default-light", options.noDefaultLight, "Leave a scene without lights dark");
     addSceneOptions(command, options.loading);
     addPipelineOptions(command, options.pipelineOptions);
     addViewOptions(command, options.view);
+    addEnvironmentOptions(command, options.environment);
     addConsoleOptions(command, options.console);
 }
 
 RenderJob planRender(const RenderOptions& options, const PipelineChoice& pipeline) {
     RenderJob job;
     job.view = readView(options.view);
+    job.environment = EnvironmentChoice(options.environment);
     if (!options.frames.empty()) job.frames = parseCount("--frames", options.frames, 1, kMaxFrames);
     job.items = planItems(options, pipeline.roots());
     job.eachFrame = findFramePlace(job.items.front().out.filename().string()).has_value();

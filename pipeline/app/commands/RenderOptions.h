@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "app/commands/Console.h"
+#include "app/commands/EnvironmentOptions.h"
 #include "app/commands/PipelineOptions.h"
 #include "app/commands/SceneFiles.h"
 #include "app/commands/ViewOptions.h"
@@ -19,6 +20,7 @@ struct RenderOptions {
     std::vector<std::string> dumps;
     PipelineOptions pipelineOptions;
     ViewOptions view;
+    EnvironmentOptions environment;
     ConsoleOptions console;
     bool validate = false, noCache = false, noDefaultLight = false;
     SceneOptions loading;
@@ -39,6 +41,7 @@ struct RenderItem {
 struct RenderJob {
     std::vector<RenderItem> items;
     ViewChoice view;
+    EnvironmentChoice environment;
     std::vector<Dump> dumps;
     std::uint32_t frames = 1;
     bool eachFrame = false;  ///< Every frame is written, not the last one only.

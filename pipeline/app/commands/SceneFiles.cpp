@@ -64,7 +64,7 @@ Scene makeSampleScene() {
     scene.meshes.push_back(makeBox({1, 1, 1}));
     scene.materials.emplace_back();
     scene.instances.emplace_back();
-    addDefaultLight(scene);
+    addDefaultLight(scene, false);
     return scene;
 }
 

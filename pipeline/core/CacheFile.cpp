@@ -1,5 +1,5 @@
 // Nothing here throws: a cache is a convenience.
-#include "truth/CacheFile.h"
+#include "core/CacheFile.h"
 
 #include <algorithm>
 #include <cstring>
