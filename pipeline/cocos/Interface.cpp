@@ -35,7 +35,9 @@ public:
 
     StageInterface read() {
         result_.stage = stage_.stage;
-        collectConstants();
+        constants_.addText(tokens_);
+        for (const StageMacro& macro : stage_.macros)
+            if (macro.info.range) constants_.addLimit(macro.info.name, macro.info.range->second);
         for (const GlslStatement& statement : findInterfaceStatements(tokens_)) {
             addSubpassInputs(tokens_[statement.storage].line);
             if (statement.storage == statement.end)
@@ -71,7 +73,6 @@ private:
         return end;
     }
 
-    void collectConstants();
     void readStruct(const GlslStatement& statement);
     void readBlock(const GlslStatement& statement);
     void readVariables(const GlslStatement& statement);
@@ -100,25 +101,6 @@ private:
     std::size_t nextMark_ = 0, nextSubpass_ = 0;
     int attachments_ = 0;
 };
-
-/// All of them before anything else: a name may be defined below its use, in a branch or by a pragma.
-void InterfaceReader::collectConstants() {
-    for (const StageMacro& macro : stage_.macros)
-        if (macro.info.range) constants_.addLimit(macro.info.name, macro.info.range->second);
-    for (std::size_t at = 0; at < tokens_.size(); ++at) {
-        if (tokens_[at].directive) {
-            const std::size_t end = directiveEnd(tokens_, at);
-            if (at + 1 < end && tokens_[at + 1].text == "define") constants_.addDefine(tokens_, at, end);
-            at = end - 1;
-        } else if (tokens_[at].text == "const" && at + 4 < tokens_.size() &&
-                   (tokens_[at + 1].text == "int" || tokens_[at + 1].text == "uint") && tokens_[at + 3].text == "=") {
-            std::size_t end = at + 4;
-            while (end < tokens_.size() && tokens_[end].text != ";" && !tokens_[end].directive) ++end;
-            constants_.add(tokens_[at + 2].text, tokens_.data() + at + 4, tokens_.data() + end);
-            at = end - 1;
-        }
-    }
-}
 
 /// `[N][M]` behind a name or a type. `at` ends behind it.
 ArraySize InterfaceReader::readSize(std::size_t& at, std::size_t end) const {
@@ -315,6 +297,10 @@ void InterfaceReader::readVariables(const GlslStatement& statement) {
     InterfaceDeclaration common;
     std::size_t at = 0;
     InterfaceStatement where = readQualifiers(statement, at, statement.end, common);
+    // `out PRECISION vec2 v_uv`: of several words the last is the name, and the one before it the type.
+    while (at + 2 < statement.end && tokens_[at + 1].isName() && tokens_[at + 2].isName() &&
+           !tokens_[at + 1].directive && !tokens_[at + 2].directive)
+        ++at;
     if (at + 1 >= statement.end || !tokens_[at].isName()) return;  // `layout(local_size_x = 8) in;`
     common.type = tokens_[at].text;
     const ArraySize typeSize = readSize(++at, statement.end);

@@ -133,11 +133,23 @@ void TextConstants::addDefine(const std::vector<GlslToken>& tokens, std::size_t 
     const bool function =
         value < end && tokens[value].text == "(" && tokens[value].text.data() == word.data() + word.size();
     const bool adjacent = tokens[first + 1].text.data() == tokens[first].text.data() + 1;
-    if (!function) add(word, tokens.data() + value, tokens.data() + end, adjacent);
+    if (!function) values_[word].push_back({tokens.data() + value, tokens.data() + end, adjacent});
 }
 
-void TextConstants::add(std::string_view name, const GlslToken* begin, const GlslToken* end, bool certain) {
-    values_[name].push_back({begin, end, certain});
+void TextConstants::addText(const std::vector<GlslToken>& tokens) {
+    for (std::size_t at = 0; at < tokens.size(); ++at) {
+        if (tokens[at].directive) {
+            const std::size_t end = directiveEnd(tokens, at);
+            if (at + 1 < end && tokens[at + 1].text == "define") addDefine(tokens, at, end);
+            at = end - 1;
+        } else if (tokens[at].text == "const" && at + 4 < tokens.size() &&
+                   (tokens[at + 1].text == "int" || tokens[at + 1].text == "uint") && tokens[at + 3].text == "=") {
+            std::size_t end = at + 4;
+            while (end < tokens.size() && tokens[end].text != ";" && !tokens[end].directive) ++end;
+            values_[tokens[at + 2].text].push_back({tokens.data() + at + 4, tokens.data() + end, true});
+            at = end - 1;
+        }
+    }
 }
 
 std::optional<TextConstants::Result> TextConstants::evaluate(const GlslToken* begin, const GlslToken* end) const {

@@ -19,10 +19,9 @@ public:
         bool certain = true;  ///< False: a name has several values, of which the largest was taken, or `# define`.
     };
 
-    /// Takes in a `#define` line, its `#` at `first`; function-like macros are no constants. `# define`, which Cocos'
-    /// compiler leaves to the GLSL compiler, counts as uncertain.
-    void addDefine(const std::vector<GlslToken>& tokens, std::size_t first, std::size_t end);
-    void add(std::string_view name, const GlslToken* begin, const GlslToken* end, bool certain = true);
+    /// Takes in a whole text: a name may be defined below its use, in a branch or by a pragma. Function-like macros are
+    /// no constants; `# define`, which Cocos' compiler leaves to the GLSL compiler, counts as uncertain.
+    void addText(const std::vector<GlslToken>& tokens);
     /// A number from outside of the text, uncertain: what a macro may be at most.
     void addLimit(std::string_view name, std::int64_t largest) { limits_[name] = largest; }
 
@@ -32,6 +31,7 @@ public:
 
 private:
     friend class ConstantReader;
+    void addDefine(const std::vector<GlslToken>& tokens, std::size_t first, std::size_t end);
     struct Range {
         const GlslToken* begin;
         const GlslToken* end;

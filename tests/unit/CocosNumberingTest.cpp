@@ -72,6 +72,11 @@ TEST(CocosNumbering, VaryingsMeetByNameAndStrangersFollow) {
     EXPECT_TRUE(numbers.attributes.empty());
 }
 
+TEST(CocosNumbering, MacrosAmongTheQualifiers) {
+    EXPECT_EQ(numbersOf("#define HALF mediump\nout HALF mat3 m;\nout flat HALF ivec2 a[2], b;\nout vec2 c;\n").varyings,
+              (Locations{{"m", 0}, {"a", 3}, {"b", 5}, {"c", 6}}));
+}
+
 TEST(CocosNumbering, FragmentOutputs) {
     EXPECT_EQ(numbersOf("", "layout(location = 1) out vec4 b;\nout vec4 a;\nout vec4 c;\n").outputs,
               (Locations{{"a", 0}, {"b", 1}, {"c", 2}}));
