@@ -187,8 +187,8 @@ ExrSize exrSize(std::span<const std::byte> bytes, const std::string& name, const
     return checkSize(readHeader(bytes, name, limits).dataWindow(), name, limits);
 }
 
-int exrColourChannels(std::span<const std::byte> bytes, const std::string& name) {
-    const Imf::Header header = readHeader(bytes, name, {});
+int exrColourChannels(std::span<const std::byte> bytes, const std::string& name, const Limits& limits) {
+    const Imf::Header header = readHeader(bytes, name, limits);
     int last = 0;
     for (auto channel = header.channels().begin(); channel != header.channels().end(); ++channel) {
         const int component = componentOf(channel.name());

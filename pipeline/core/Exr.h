@@ -23,6 +23,6 @@ ExrSize exrSize(std::span<const std::byte> bytes, const std::string& name, const
 Image decodeExr(std::span<const std::byte> bytes, const std::string& name, const Limits& limits = {});
 
 /// The last of R, G and B that is there, counted from 1; 3 for a single channel that is shown as grey.
-int exrColourChannels(std::span<const std::byte> bytes, const std::string& name);
+int exrColourChannels(std::span<const std::byte> bytes, const std::string& name, const Limits& limits = {});
 
 }  // namespace crevice

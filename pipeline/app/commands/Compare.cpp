@@ -3,6 +3,7 @@
 #include <cmath>
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
@@ -15,6 +16,7 @@
 #include "core/Error.h"
 #include "core/Exr.h"
 #include "core/Files.h"
+#include "core/Limits.h"
 
 namespace crevice {
 namespace {
@@ -26,6 +28,7 @@ constexpr const char* kExamples =
 
 struct CompareOptions {
     std::string a, b, rmse, max, heat;
+    std::vector<std::string> limits;
 };
 
 std::optional<double> readThreshold(const char* option, const std::string& text) {
@@ -36,9 +39,9 @@ std::optional<double> readThreshold(const char* option, const std::string& text)
 }
 
 /// How many of red, green and blue the file gives values for: 1 for an EXR of R alone, 2 for RG, else 3.
-int colourChannels(const std::string& path) {
-    const std::vector<std::byte> bytes = readBytes(path);
-    return looksLikeExr(bytes) ? exrColourChannels(bytes, path) : 3;
+int colourChannels(const std::string& path, const Limits& limits) {
+    const std::vector<std::byte> bytes = readBytes(path, limits.maxFileBytes);
+    return looksLikeExr(bytes) ? exrColourChannels(bytes, path, limits) : 3;
 }
 
 void printDifference(const ImageDifference& difference) {
@@ -62,15 +65,17 @@ int runCompare(const CompareOptions& options) {
     const std::optional<double> maxLimit = readThreshold("--max", options.max);
     if (!rmseLimit && !maxLimit) rmseLimit = 0;
     if (!options.heat.empty()) checkPicturePath("--heat", options.heat);
-    const Image a = readImage(options.a);
-    const Image b = readImage(options.b);
+    Limits limits;
+    for (const std::string& limit : options.limits) setLimit(limits, limit);
+    const Image a = readImage(options.a, limits);
+    const Image b = readImage(options.b, limits);
     if (a.width != b.width || a.height != b.height) {
         throw RenderError(fmt::format("the sizes differ: '{}' is {}x{}, '{}' is {}x{}", options.a, a.width, a.height,
                                       options.b, b.width, b.height),
                           "render both with the same --size");
     }
     const ImageDifference difference =
-        compareImages(a, b, std::max(colourChannels(options.a), colourChannels(options.b)));
+        compareImages(a, b, std::max(colourChannels(options.a, limits), colourChannels(options.b, limits)));
     printDifference(difference);
     if (!options.heat.empty()) {
         writeImage(options.heat, makeHeatImage(a, b, difference.max));
@@ -92,6 +97,9 @@ void addCompareCommand(CLI::App& program, Action& action) {
         ->type_name("T");
     command->add_option("--max", options->max, "Allowed difference of any channel; 1 = black against white")
         ->type_name("T");
+    command->add_option("--limit", options->limits, "Raise or lower a limit of `crevice limits` (repeatable)")
+        ->type_name("NAME=VALUE")
+        ->allow_extra_args(false);
     command->add_option("--heat", options->heat, "Picture of the differences to write")->type_name("H.png");
     command->footer(kExamples);
     command->callback([&action, options] { action = [options] { return runCompare(*options); }; });

@@ -10,6 +10,7 @@
 #include "app/commands/OutputFiles.h"
 #include "core/Error.h"
 #include "core/Files.h"
+#include "core/Limits.h"
 #include "core/Text.h"
 
 namespace crevice {
@@ -41,8 +42,8 @@ float readThickness(const std::string& text) {
     return static_cast<float>(thickness);
 }
 
-Image readMap(const char* option, const std::string& path, const glm::uvec2& size) {
-    Image image = readImage(path);
+Image readMap(const char* option, const std::string& path, const glm::uvec2& size, const Limits& limits) {
+    Image image = readImage(path, limits);
     if (image.width == size.x && image.height == size.y) return image;
     throw Error(fmt::format("{}: '{}' is {}x{} and the reference {}x{}", option, path, image.width, image.height,
                             size.x, size.y),
@@ -119,9 +120,11 @@ ReferenceRequest readRequest(const ReferenceOptions& options) {
         throw Error(fmt::format("--heat: '{}' has no map", options.heat[options.measure.size()]),
                     "give a --measure for each --heat, in the same order");
     }
+    Limits limits;
+    for (const std::string& limit : options.loading.limits) setLimit(limits, limit);
     for (const std::string& path : options.measure)
-        request.measured.push_back(redChannel(readMap("--measure", path, request.view.size)));
-    if (!options.depth.empty()) request.depth = readMap("--depth", options.depth, request.view.size);
+        request.measured.push_back(redChannel(readMap("--measure", path, request.view.size, limits)));
+    if (!options.depth.empty()) request.depth = readMap("--depth", options.depth, request.view.size, limits);
     return request;
 }
 
