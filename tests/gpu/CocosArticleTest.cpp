@@ -219,5 +219,32 @@ TEST_F(CocosArticle, FollowsTheFramesSizeAndEachCameraHasItsOwnOcclusion) {
     }
 }
 
+TEST_F(CocosArticle, BlendedObjectsFollowTheLighting) {
+    Scene scene = darkScene();
+    scene.materials[0].emissive = {0.2f, 0, 0};
+    addWall(scene, 10);
+    SceneMaterial glass = scene.materials[0];
+    glass.emissive = {0, 0.3f, 0};
+    glass.alphaMode = AlphaMode::Blend;
+    loadArticle("article-v33");
+    View view{.width = 16, .height = 16};
+    view.camera = Camera::lookAt({0, 0, 5}, {0, 0, 0});
+    const auto centre = [&](float alpha) {
+        Scene with = scene;
+        glass.baseColor = {0, 0, 0, alpha};
+        with.materials.push_back(glass);
+        addWall(with, 4, {0, 0, 1}, 1);
+        renderer_->setScene(withEffects(with));
+        return renderer_->render(view).at(8, 8);
+    };
+    const glm::vec4 behind = centre(0), glassOnly = centre(1), half = centre(0.5f);
+    EXPECT_GT(behind.x, 0.2f);
+    EXPECT_LT(behind.y, 0.01f);
+    EXPECT_GT(glassOnly.y, 0.2f);
+    EXPECT_LT(glassOnly.x, 0.01f);
+    for (int c = 0; c < 3; ++c) EXPECT_NEAR(half[c], 0.5f * (behind[c] + glassOnly[c]), 1.5f / 255) << c;
+    takeWarnings();
+}
+
 }  // namespace
 }  // namespace crevice
