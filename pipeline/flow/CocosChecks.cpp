@@ -15,7 +15,8 @@ namespace {
 std::set<std::string> phasesOf(const SceneMaterial& material, EffectLibrary& library) {
     std::set<std::string> phases;
     const EffectAsset& asset = library.asset(material.effect->effect);
-    for (const EffectPass& pass : asset.techniques.at(material.effect->technique).passes) phases.insert(pass.phase);
+    if (material.effect->technique >= asset.techniques.size()) return phases;  // reported where queues are compiled
+    for (const EffectPass& pass : asset.techniques[material.effect->technique].passes) phases.insert(pass.phase);
     return phases;
 }
 

@@ -61,6 +61,16 @@ void setTopology(RenderState& state, MeshTopology topology) {
     if (topology == MeshTopology::Lines) state.topology = Topology::LineList;
 }
 
+/// A material made by code may name a texture that the scene does not have.
+void checkTextures(const SurfaceProgram& surface, const Scene& scene, const std::string& material) {
+    for (const auto& [slot, ref] : surface.textures) {
+        if (ref.texture >= 0 && std::size_t(ref.texture) < scene.textures.size()) continue;
+        throw Error(fmt::format("material '{}' names texture {}, and the scene has {}", material, ref.texture,
+                                scene.textures.size()),
+                    "give the index of a texture of the scene, counted from 0");
+    }
+}
+
 void addTextures(SurfaceProgram& surface, const std::vector<std::pair<std::string, TextureRef>>& textures) {
     for (const auto& [sampler, ref] : textures) {
         for (const Wire& wire : surface.wires) {
@@ -172,7 +182,10 @@ void ProgramCompiler::compileQueue(const StageProgram& stage, QueueProgram& queu
         queue.surfaces[index] =
             compileSurface(stage, queue.declaration, scene.materials[index / kSurfaceKinds], index % 2 == 1, problems);
         const auto topology = MeshTopology(index % kSurfaceKinds / 2);
+        const std::string& name = scene.materials[index / kSurfaceKinds].name;
         setTopology(queue.surfaces[index].state, topology);
+        checkTextures(queue.surfaces[index], scene, name);
+        for (const SurfaceProgram& more : queue.surfaces[index].further) checkTextures(more, scene, name);
         for (SurfaceProgram& more : queue.surfaces[index].further) setTopology(more.state, topology);
     }
 }
