@@ -30,7 +30,12 @@ struct EffectLibrary::State {
     Log log;
     SpirvCache disk;
     ShaderCompiler compiler;
-    std::deque<std::pair<std::string, StageCode>> recent;  ///< Numbered stages by their text, newest first.
+    struct RecentStage {
+        std::string key;  ///< Hash of its text.
+        StageCode code;
+        bool checked = false;
+    };
+    std::deque<RecentStage> recent;  ///< Numbered stages, newest first.
     std::vector<std::unique_ptr<EffectFrontEnd>> frontEnds;
     std::map<std::string, std::unique_ptr<EffectAsset>> assets;  ///< By path.
     std::map<const EffectAsset*, EffectFrontEnd*> readers;       ///< Of the assets that are not in our own dialect.
@@ -60,7 +65,7 @@ struct EffectLibrary::State {
     const EffectVariant& make(const VariantRequest& request, const BindingMap& bindings);
     CompiledPass compiledFor(const std::string& key, const std::vector<StageSource>& sources,
                              const BindingMap& bindings, bool check);
-    std::vector<StageCode> codeOf(const std::vector<StageSource>& sources, const BindingMap& bindings,
+    std::vector<StageCode> codeOf(const std::vector<StageSource>& sources, const BindingMap& bindings, bool check,
                                   Problems& problems);
     std::string askKey(const EffectAsset& effect, const VariantRequest& request, const BindingMap& bindings) const;
     const EffectVariant& keep(const EffectAsset& effect, const VariantRequest& request, const std::string& place,
@@ -180,22 +185,28 @@ std::vector<StageSource> EffectLibrary::State::stagesOf(const EffectAsset& asset
 
 /// Numbered stages one by one, each text once: passes share their programs.
 std::vector<StageCode> EffectLibrary::State::codeOf(const std::vector<StageSource>& sources, const BindingMap& bindings,
-                                                    Problems& problems) {
+                                                    bool check, Problems& problems) {
     const bool numbered = std::all_of(sources.begin(), sources.end(), [](const auto& s) { return s.numbered; });
-    if (!numbered) return compiler.compile(sources, bindings, problems);
     std::vector<StageCode> code;
+    if (!numbered) {
+        code = compiler.compile(sources, bindings, problems);
+        for (std::size_t i = 0; check && i < code.size(); ++i) checkSpirv(code[i], sources[i], problems);
+        return code;
+    }
     for (const StageSource& source : sources) {
         const std::string key =
             contentHash(fmt::format("{}\n{}{}", static_cast<int>(source.stage), source.head, source.text));
-        auto known = std::find_if(recent.begin(), recent.end(), [&](const auto& stage) { return stage.first == key; });
+        auto known = std::find_if(recent.begin(), recent.end(), [&](const RecentStage& s) { return s.key == key; });
         if (known == recent.end()) {
             auto fresh = compiler.compile({&source, 1}, bindings, problems);
             if (fresh.empty()) continue;
-            recent.emplace_front(key, std::move(fresh.front()));
+            recent.push_front({key, std::move(fresh.front())});
             known = recent.begin();
             if (recent.size() > kRecentStages) recent.pop_back();
         }
-        code.push_back(known->second);
+        if (check && !known->checked) checkSpirv(known->code, source, problems);
+        known->checked = known->checked || (check && !problems.hasErrors());
+        code.push_back(known->code);
     }
     return code;
 }
@@ -209,9 +220,8 @@ CompiledPass EffectLibrary::State::compiledFor(const std::string& key, const std
     }
     Problems problems;
     CompiledPass compiled;
-    compiled.code = codeOf(sources, bindings, problems);
+    compiled.code = codeOf(sources, bindings, check, problems);
     problems.throwIfErrors();
-    for (std::size_t i = 0; check && i < sources.size(); ++i) checkSpirv(compiled.code[i], sources[i], problems);
     compiled.checked = check;
     compiled.info = reflectStages(compiled.code, sources, problems);
     problems.throwIfErrors();
