@@ -38,7 +38,7 @@ void fillCamera(Block& block, const FrameView& view, const Scene& scene, bool hd
     block.mainLitColor = base.mainLitColor;
     block.mainLitColor.w *= view.exposure;
     // One illuminance scales both colours: the larger component of the two, so that colours are at most 1.
-    const Ambient ambient = scene.ambient.value_or(Ambient{});
+    const Ambient ambient = ambientOf(scene);
     const glm::vec3 most = glm::max(ambient.sky, ambient.ground);
     const float illuminance = std::max({most.x, most.y, most.z});
     const float scale = illuminance > 0 ? 1.0f / illuminance : 0.0f;
