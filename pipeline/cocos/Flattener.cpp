@@ -169,7 +169,7 @@ private:
         if (!read.mark) return;
         read.mark->line = static_cast<int>(lineCount()) + 1;
         out_.marks.push_back(std::move(*read.mark));
-        push(read.declaration, origin);
+        push({}, origin);
     }
 
     /// A line of output that is being put together.

@@ -7,6 +7,9 @@ namespace crevice::cocos {
 namespace {
 
 constexpr double kHuge = 1e30;
+
+bool isOperator(char c) { return std::string_view("+-*/%&|^<>=!?~").find(c) != std::string_view::npos; }
+
 constexpr double kHeavy = 100;  ///< Words: lighter macros cannot add up before the text itself is too large.
 constexpr int kMaxDepth = 100;  ///< Nesting of calls, and of macros in macros.
 
@@ -144,10 +147,12 @@ int MacroWeights::firstTooHeavy(std::string_view text, std::string_view& macro) 
         heavy.emplace(name, &entry);
         letters[static_cast<unsigned char>(name.front()) & 127u] = true;
     }
-    if (heavy.empty()) return 0;
+    const auto lineOf = [&](std::size_t at) {
+        return static_cast<int>(std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(at), '\n')) + 1;
+    };
     const std::vector<std::string_view> none;
     Scanner scanner{*this, text, none};
-    double total = 0;
+    double total = 0, statement = 0;
     bool lineStart = true;
     while (scanner.at < text.size()) {
         const char c = text[scanner.at];
@@ -159,6 +164,13 @@ int MacroWeights::firstTooHeavy(std::string_view text, std::string_view& macro) 
             continue;
         }
         if (!isNamePart(c)) {
+            if (c == ';' || c == '{' || c == '}')
+                statement = 0;
+            else if (c == ',')
+                statement += 1;
+            else if (isOperator(c))
+                statement += 2;
+            if (statement > kMaxStatement) return lineOf(scanner.at);
             lineStart = c == '\n' || (lineStart && (c == ' ' || c == '\t'));
             ++scanner.at;
             continue;
@@ -173,10 +185,11 @@ int MacroWeights::firstTooHeavy(std::string_view text, std::string_view& macro) 
             continue;
         }
         const std::size_t begin = scanner.at;
-        total += scanner.word().constant;
-        if (total <= kMaxWords) continue;
-        macro = name;
-        return static_cast<int>(std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(begin), '\n')) + 1;
+        const double words = scanner.word().constant;
+        total += words;
+        statement += words;
+        if (total > kMaxWords) macro = name;
+        if (total > kMaxWords || statement > kMaxStatement) return lineOf(begin);
     }
     return 0;
 }

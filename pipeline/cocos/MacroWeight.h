@@ -17,11 +17,15 @@ class MacroWeights {
 public:
     /// That one call, or all calls of a stage's text together, may stand for.
     static constexpr int kMaxWords = 2'000'000;
+    /// That one statement may hold: operators count twice. The compiler follows long sums and lists by recursion and
+    /// would run out of stack.
+    static constexpr int kMaxStatement = 8000;
 
     /// Of several definitions of a name the heaviest counts.
     void add(const MacroDefinition& macro);
 
-    /// The line of `text`, counted from 1, on which the limit is passed; 0 = nowhere.
+    /// The line of `text`, counted from 1, on which a limit is passed; 0 = nowhere. `macro` is empty when it is that of
+    /// a statement.
     int firstTooHeavy(std::string_view text, std::string_view& macro);
 
 private:

@@ -148,10 +148,7 @@ Pragma readSubpassInput(PragmaMark::Kind kind, std::string_view text) {
         pragma.mistake = "the pragma names no subpass input";
         return pragma;
     }
-    Pragma pragma = makeMark(kind, name, direction);
-    if (direction.find("in") != std::string_view::npos)
-        pragma.declaration = fmt::format("uniform subpassInput {};", name);
-    return pragma;
+    return makeMark(kind, name, direction);
 }
 
 }  // namespace

@@ -14,7 +14,6 @@ struct Pragma {
     std::optional<DefineInfo> meta;  ///< define-meta, and `define` with a describing tail.
     std::optional<PragmaMark> mark;  ///< Without line.
     std::string extension;           ///< "#extension NAME : level", for version 450.
-    std::string declaration;         ///< GLSL that stands for it: subpass inputs.
     std::string mistake;             ///< What is wrong with it.
 };
 

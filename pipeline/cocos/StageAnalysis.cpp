@@ -268,6 +268,9 @@ private:
         std::string_view heaviest;
         const int line = weights.firstTooHeavy(out_.flat.text, heaviest);
         if (line == 0) return;
+        if (heaviest.empty())
+            return problems_.error(out_.flat.locate(line), "this statement is longer than the compiler can take",
+                                   "split it, or use a loop");
         problems_.error(out_.flat.locate(line),
                         fmt::format("macro '{}' stands for more than {} words here", heaviest, MacroWeights::kMaxWords),
                         "macros multiply each other: write out what is meant");

@@ -203,6 +203,26 @@ TEST(CocosMacro, BombsForTheCompilersPreprocessorEnd) {
     EXPECT_EQ(bench.problem().message, "");  // Recursion is none.
 }
 
+TEST(CocosMacro, StatementsThatWouldExhaustTheCompilersStackEnd) {
+    CocosBench bench;
+    std::string sum = "float f(float a) { return a";
+    for (int i = 0; i < 30'000; ++i) sum += " + a";
+    bench.fragment(sum + "; }\n");
+    EXPECT_EQ(bench.problem().message, "this statement is longer than the compiler can take");
+    EXPECT_EQ(bench.problem().where.line, 11);
+    std::string macros = "#define A0 x + x\n";
+    for (int i = 1; i < 14; ++i) {
+        const std::string inner = "A" + std::to_string(i - 1);
+        macros += "#define A" + std::to_string(i) + " " + inner + " + " + inner + "\n";
+    }
+    bench.fragment(macros + "float f(float x) { return A13; }\n");
+    EXPECT_EQ(bench.problem().message, "this statement is longer than the compiler can take");
+    std::string table = "const float table[3000] = float[](0.0";
+    for (int i = 1; i < 3000; ++i) table += ", 0.5";
+    bench.fragment(table + ");\n");
+    EXPECT_EQ(bench.problem().message, "");
+}
+
 TEST(CocosMacro, DeepNestingEnds) {
     CocosBench bench;
     std::string nested = "1.0";
