@@ -43,7 +43,7 @@ void PluginSet::allowFolder(const fs::path& folder) {
 
 void PluginSet::loadNeeded(const AssetRoots& roots, const PipelineRequest& request, StageRegistry& registry) {
     Problems problems;  // reported by loadPipeline()
-    for (const PipelineSource& source : readPipelineChain(roots, request.nameOrPath, request.options, problems)) {
+    for (const PipelineSource& source : readPipelineChain(roots, request, problems)) {
         const Value* plugins = source.tree.isObject() ? source.tree.find("plugins") : nullptr;
         if (!plugins || !plugins->isArray()) continue;
         for (const Value& plugin : plugins->items()) {

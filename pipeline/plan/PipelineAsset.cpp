@@ -96,7 +96,7 @@ Value flattenChain(const Chain& chain, const PipelineRequest& request, FlattenOp
 
 PipelineDesc loadPipeline(const AssetRoots& roots, const PipelineRequest& request) {
     Problems problems;
-    return loadChain(readPipelineChain(roots, request.nameOrPath, request.options, problems), request, problems);
+    return loadChain(readPipelineChain(roots, request, problems), request, problems);
 }
 
 PipelineDesc parsePipeline(std::string_view text, const std::string& file, const AssetRoots& roots,
@@ -107,8 +107,7 @@ PipelineDesc parsePipeline(std::string_view text, const std::string& file, const
 
 Value flattenPipeline(const AssetRoots& roots, const PipelineRequest& request, FlattenOptions options) {
     Problems problems;
-    return flattenChain(readPipelineChain(roots, request.nameOrPath, request.options, problems), request, options,
-                        problems);
+    return flattenChain(readPipelineChain(roots, request, problems), request, options, problems);
 }
 
 Value flattenParsed(std::string_view text, const std::string& file, const AssetRoots& roots,

@@ -29,6 +29,7 @@ struct PipelineRequest {
     std::string nameOrPath;                      ///< A name below the asset roots, or a path that ends in ".json".
     std::map<std::string, std::string> options;  ///< Option → value as text: "false", "0.5", "article".
     std::vector<StageSet> sets;                  ///< In order.
+    std::optional<std::string> text = {};        ///< The document itself; `nameOrPath` then names it in messages.
     PriorityLookup defaultPriority = {};         ///< Places an `insert` that has neither before/after nor a priority.
 };
 

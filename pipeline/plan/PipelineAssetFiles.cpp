@@ -289,4 +289,10 @@ std::vector<PipelineSource> parsePipelineChain(const AssetRoots& roots, std::str
     return reader.read(parseJson(text, file), file);
 }
 
+std::vector<PipelineSource> readPipelineChain(const AssetRoots& roots, const PipelineRequest& request,
+                                              Problems& problems) {
+    return request.text ? parsePipelineChain(roots, *request.text, request.nameOrPath, request.options, problems)
+                        : readPipelineChain(roots, request.nameOrPath, request.options, problems);
+}
+
 }  // namespace crevice

@@ -8,6 +8,7 @@
 
 #include "core/Document.h"
 #include "core/Files.h"
+#include "plan/PipelineAsset.h"
 
 namespace crevice {
 
@@ -26,6 +27,9 @@ using OptionTexts = std::map<std::string, std::string>;
 /// or when `extends` is wrong; mistakes inside the documents go to `problems`.
 std::vector<PipelineSource> readPipelineChain(const AssetRoots& roots, const std::string& nameOrPath,
                                               const OptionTexts& requested, Problems& problems);
+/// The document of a request: from its text where it has one.
+std::vector<PipelineSource> readPipelineChain(const AssetRoots& roots, const PipelineRequest& request,
+                                              Problems& problems);
 /// The same, the youngest document from memory.
 std::vector<PipelineSource> parsePipelineChain(const AssetRoots& roots, std::string_view text, const std::string& file,
                                                const OptionTexts& requested, Problems& problems);

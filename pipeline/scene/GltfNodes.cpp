@@ -174,7 +174,8 @@ private:
                                         .material = part.material >= 0 ? part.material : defaultMaterial(),
                                         .world = world,
                                         .name = nameOf(node, "node"),
-                                        .flipped = glm::determinant(glm::mat3(world)) < 0});
+                                        .flipped = glm::determinant(glm::mat3(world)) < 0,
+                                        .sourceMesh = from.mesh});
         }
     }
 

@@ -121,6 +121,7 @@ struct Instance {
     glm::mat4 world{1};
     std::string name;
     bool flipped = false;  ///< The matrix mirrors (negative determinant): front faces are clockwise in world space.
+    int sourceMesh = -1;   ///< Number of the glTF mesh it is a part of; -1 = none.
 };
 
 enum class LightType : std::uint8_t { Directional, Point, Spot };

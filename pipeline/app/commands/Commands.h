@@ -17,6 +17,7 @@ void addSheetCommand(CLI::App& program, Action& action);
 void addValidateCommand(CLI::App& program, Action& action);
 void addFlattenCommand(CLI::App& program, Action& action);
 void addPlanCommand(CLI::App& program, Action& action);
+void addImportCommand(CLI::App& program, Action& action);
 void addStagesCommand(CLI::App& program, Action& action);
 void addEffectsCommand(CLI::App& program, Action& action);
 void addSchemaCommand(CLI::App& program, Action& action);

@@ -45,6 +45,7 @@ void addPipelineOptions(CLI::App& command, PipelineOptions& options) {
         ->allow_extra_args(false);
     command.add_option("--seed", options.seed, "Sets 'seed' on every stage that has one")->type_name("N");
     addPluginOptions(command, options.plugins);
+    addCocosOptions(command, options.cocos);
 }
 
 StageClasses::StageClasses(const PluginOptions& options) {
@@ -55,9 +56,14 @@ StageClasses::StageClasses(const PluginOptions& options) {
 
 AssetRoots rootsFor(const std::string& nameOrPath) { return AssetRoots::standard().forDocument(nameOrPath); }
 
-PipelineChoice::PipelineChoice(const std::string& nameOrPath, const PipelineOptions& options)
+PipelineChoice::PipelineChoice(const std::string& nameOrPath, const PipelineOptions& options, const Log& log,
+                               const std::vector<std::string>& scenes)
     : roots_(rootsFor(nameOrPath)), classes_(options.plugins) {
     request_.nameOrPath = nameOrPath;
+    std::vector<std::string> files{nameOrPath};
+    files.insert(files.end(), scenes.begin(), scenes.end());
+    cocos_ = openCocosProject(options.cocos, files);
+    if (isCocosPipeline(nameOrPath)) request_.text = cocos_->importPipeline(nameOrPath, classes_.registry(), log).text;
     for (const std::string& option : options.options) {
         const auto [name, value] = parseAssignment("--option", option, "NAME=VALUE");
         if (!request_.options.emplace(name, value).second) {

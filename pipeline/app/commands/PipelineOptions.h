@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "app/commands/CocosOptions.h"
 #include "core/Files.h"
 #include "core/Log.h"
 #include "flow/FrameProgram.h"
@@ -31,6 +32,7 @@ struct PipelineOptions {
     std::vector<std::string> sets;     ///< STAGE.path=VALUE
     std::string seed;                  ///< Empty = not given.
     PluginOptions plugins;
+    CocosOptions cocos;
 };
 void addPipelineOptions(CLI::App& command, PipelineOptions& options);
 
@@ -55,8 +57,10 @@ private:
 /// A pipeline read from its document with everything the command line changes in it.
 class PipelineChoice {
 public:
-    /// Throws Error.
-    PipelineChoice(const std::string& nameOrPath, const PipelineOptions& options);
+    /// A .rpp is translated first; what its translation leaves out is said to `log`. `scenes` are asked for the project
+    /// they lie in. Throws Error.
+    PipelineChoice(const std::string& nameOrPath, const PipelineOptions& options, const Log& log = Log(),
+                   const std::vector<std::string>& scenes = {});
     PipelineChoice(const PipelineChoice&) = delete;  // the request refers to the classes
     PipelineChoice& operator=(const PipelineChoice&) = delete;
 
@@ -64,6 +68,12 @@ public:
     const PipelineDesc& desc() const { return desc_; }
     const AssetRoots& roots() const { return roots_; }
     const StageClasses& classes() const { return classes_; }
+    /// The Cocos project in use, or null.
+    const std::shared_ptr<CocosProject>& cocos() const { return cocos_; }
+    /// Effects of the Cocos project in use, if any, are found by the library from now on.
+    void addEffects(EffectLibrary& library) const {
+        if (cocos_) cocos_->addEffects(library);
+    }
 
 private:
     void setSeed(const std::string& seed);
@@ -71,6 +81,7 @@ private:
     AssetRoots roots_;
     StageClasses classes_;
     PipelineRequest request_;
+    std::shared_ptr<CocosProject> cocos_;
     PipelineDesc desc_;
 };
 

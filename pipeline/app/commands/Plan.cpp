@@ -30,8 +30,9 @@ int runPlan(const PlanOptions& options) {
     if (options.pipeline.empty()) throw Error("no pipeline given", "name one: crevice plan ssao-deferred");
     const glm::uvec2 size = parseSize("--size", options.size);
     const Log log = makeLog(options.console);
-    const PipelineChoice pipeline(options.pipeline, options.pipelineOptions);
+    const PipelineChoice pipeline(options.pipeline, options.pipelineOptions, log, {options.scene});
     EffectLibrary library(pipeline.roots(), log);
+    pipeline.addEffects(library);
     FrameProgram program(pipeline.desc(), pipeline.classes().registry(), library, log,
                          {.width = size.x, .height = size.y});
     const Scene scene = options.scene.empty() ? makeSampleScene()

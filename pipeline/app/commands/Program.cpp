@@ -26,6 +26,7 @@ void addCommands(CLI::App& program, Action& action) {
     addValidateCommand(program, action);
     addFlattenCommand(program, action);
     addPlanCommand(program, action);
+    addImportCommand(program, action);
     addStagesCommand(program, action);
     addEffectsCommand(program, action);
     addSchemaCommand(program, action);

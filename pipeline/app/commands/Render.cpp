@@ -91,6 +91,7 @@ void RenderRun::start() {
                                                            .defaultEnvironment = !job_.environment.isNone(),
                                                            .roots = pipeline_.roots(),
                                                            .log = makeLog(options_.console, progress_)});
+    pipeline_.addEffects(renderer_->effects());
     timings_.deviceMs = watch_.lap();
     for (const std::filesystem::path& plugin : pipeline_.classes().pluginFiles()) renderer_->loadPlugin(plugin);
     progress_.show(fmt::format("compiling {} …", pipeline_.desc().name));
@@ -155,7 +156,7 @@ bool RenderRun::reportValidation() {
 }
 
 int runRender(const RenderOptions& options) {
-    const PipelineChoice pipeline(options.pipeline, options.pipelineOptions);
+    const PipelineChoice pipeline(options.pipeline, options.pipelineOptions, makeLog(options.console), options.scenes);
     return RenderRun(options, pipeline, planRender(options, pipeline)).run();
 }
 

@@ -28,8 +28,9 @@ struct ValidateOptions {
 };
 
 void validatePipeline(const std::string& name, const ValidateOptions& options, const Log& log) {
-    const PipelineChoice pipeline(name, options.pipelineOptions);
+    const PipelineChoice pipeline(name, options.pipelineOptions, log, {options.scene});
     EffectLibrary library(pipeline.roots(), log, {.useDiskCache = !options.noCache});
+    pipeline.addEffects(library);
     FrameProgram program(pipeline.desc(), pipeline.classes().registry(), library, log, {});
     const Scene scene = options.scene.empty() ? makeSampleScene()
                                               : loadSceneFile(findScene(pipeline.roots(), options.scene),

@@ -1,0 +1,276 @@
+// Walks the node tree twice: cameras first, since exposure and the sort of light follow from them and the globals.
+#include "cocos/SceneImport.h"
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "cocos/SceneComponents.h"
+#include "cocos/SceneModels.h"
+
+namespace crevice::cocos {
+namespace {
+
+constexpr DocumentLimits kSceneLimits{.maxBytes = 256u << 20, .maxDepth = 64, .maxNodes = 8'000'000};
+constexpr int kMaxPrefabs = 1;  ///< Prefabs inside of prefabs are left out.
+
+/// Bookkeeping of nodes that draws nothing.
+constexpr std::string_view kSilent[] = {"cc.UITransform", "cc.Widget", "cc.Animation", "cc.SkeletalAnimation"};
+
+class SceneImporter {
+public:
+    SceneImporter(Project& project, MaterialForm form, const LoadOptions& options, Problems& problems)
+        : project_(project),
+          options_(options),
+          problems_(problems),
+          materials_(project, out_.scene, form, problems),
+          models_(project, out_.scene, materials_, options, problems) {}
+
+    ImportedScene run(const std::filesystem::path& path) {
+        const ObjectGraph graph = ObjectGraph::read(path, kSceneLimits);
+        const Value* root = rootNode(graph);
+        out_.scene.name = path.stem().string();
+        const Value* globals =
+            graph.resolve(root->find("_globals") ? *root->find("_globals") : Value(), "'_globals'", problems_);
+        hdr_ = isHdr(graph, globals);
+        lights_ = false;
+        walk(graph, *root, glm::mat4(1), 0, 0);
+        takeCameras();
+        lights_ = true;
+        walk(graph, *root, glm::mat4(1), 0, 0);
+        if (globals) readGlobals(graph, *globals);
+        noteSkipped();
+        return std::move(out_);
+    }
+
+private:
+    const Value* rootNode(const ObjectGraph& graph) {
+        const Value& first = graph.root();
+        const std::string type = typeOf(first);
+        const char* key = type == "cc.SceneAsset" ? "scene" : "data";
+        const Value* ref = first.find(key);
+        const Value* root = ref ? graph.resolve(*ref, fmt::format("'{}'", key), problems_) : nullptr;
+        if (!root || (type != "cc.SceneAsset" && type != "cc.Prefab")) {
+            problems_.throwIfErrors();
+            throw Error(first.where(), fmt::format("this is no scene: its type is '{}'", type),
+                        "a .scene begins with an object of type 'cc.SceneAsset'");
+        }
+        return root;
+    }
+
+    const Value* section(const ObjectGraph& graph, const Value& globals, std::initializer_list<const char*> keys) {
+        for (const char* key : keys) {
+            const Value* value = globals.find(key);
+            if (value && !value->isNull()) return graph.resolve(*value, fmt::format("'{}'", key), problems_);
+        }
+        return nullptr;
+    }
+
+    bool isHdr(const ObjectGraph& graph, const Value* globals) {
+        const Value* skybox = globals ? section(graph, *globals, {"_skybox", "skybox"}) : nullptr;
+        if (!skybox) return true;
+        const FieldReader fields(*skybox, problems_);
+        return fields.boolean(fields.firstOf({"_useHDR", "_isHDR"}), true);
+    }
+
+    void walk(const ObjectGraph& graph, const Value& node, const glm::mat4& parent, int depth, int prefabs) {
+        if (depth > options_.limits.maxNodeDepth) {
+            problems_.error(node.where(),
+                            fmt::format("nodes nested deeper than {} levels", options_.limits.maxNodeDepth),
+                            "flatten the scene");
+            return;
+        }
+        if (std::find(path_.begin(), path_.end(), &node) != path_.end()) {
+            problems_.error(node.where(), "this node is one of its own children", "let '_children' name other nodes");
+            return;
+        }
+        if (++visited_ > 2 * options_.limits.maxInstances) {
+            if (visited_ == 2 * options_.limits.maxInstances + 1)
+                problems_.error(node.where(), fmt::format("more than {} nodes", options_.limits.maxInstances),
+                                "split the scene");
+            return;
+        }
+        const FieldReader fields(node, problems_);
+        if (!fields.boolean("_active", true)) return;
+        if (const Value* instance = prefabInstance(graph, node))
+            return placePrefab(graph, node, *instance, parent, depth, prefabs);
+        path_.push_back(&node);
+        const glm::mat4 world = parent * readTransform(node, problems_);
+        for (const Value* component : graph.resolveList(fields.list("_components"), "'_components'", problems_))
+            visit(graph, *component, world, fields.text("_name", "node"));
+        for (const Value* child : graph.resolveList(fields.list("_children"), "'_children'", problems_))
+            walk(graph, *child, world, depth + 1, prefabs);
+        path_.pop_back();
+    }
+
+    void visit(const ObjectGraph& graph, const Value& component, const glm::mat4& world, const std::string& name) {
+        const FieldReader fields(component, problems_);
+        if (!fields.boolean("_enabled", true)) return;
+        const std::string type = typeOf(component);
+        if (type == "cc.Camera") {
+            if (!lights_) cameras_.push_back(readCamera(component, world, problems_));
+            if (!lights_) cameras_.back().camera.name = name;
+            return;
+        }
+        if (type == "cc.Canvas" && !lights_) {
+            ++skipped_[type];
+            return;
+        }
+        if (!lights_) return;
+        if (auto light = readLight(component, world, hdr_, exposure_, problems_)) {
+            light->name = name;
+            if (fields.boolean("_useColorTemperature", false)) ++skipped_["colour temperature of lights"];
+            out_.scene.lights.push_back(std::move(*light));
+        } else if (type == "cc.MeshRenderer" || type == "cc.SkinnedMeshRenderer" || type == "cc.ModelComponent") {
+            addRenderer(component, world, name);
+        } else if (std::find(std::begin(kSilent), std::end(kSilent), type) == std::end(kSilent)) {
+            ++skipped_[type.empty() ? "components without a type" : type];
+        }
+        (void)graph;
+    }
+
+    void addRenderer(const Value& component, const glm::mat4& world, const std::string& name) {
+        const FieldReader fields(component, problems_);
+        const AssetRef mesh = fields.asset("_mesh");
+        if (!mesh) return;
+        const std::vector<ModelPart> parts = models_.mesh(mesh, fmt::format("the mesh of '{}'", name));
+        const Value* materials = fields.list("_materials");
+        for (std::size_t i = 0; i < parts.size(); ++i) {
+            const Value* ref = materials && i < materials->items().size() ? &materials->items()[i] : nullptr;
+            out_.scene.instances.push_back({.mesh = parts[i].mesh,
+                                            .material = materialOf(ref, parts[i], name),
+                                            .world = world,
+                                            .name = name,
+                                            .flipped = glm::determinant(glm::mat3(world)) < 0});
+        }
+    }
+
+    int materialOf(const Value* ref, const ModelPart& part, const std::string& name) {
+        if (!ref || ref->isNull()) return part.material >= 0 ? part.material : materials_.addDefault();
+        if (!isAssetRef(*ref)) {
+            problems_.error(ref->where(), fmt::format("a material of '{}' must be an asset or null", name),
+                            R"(write { "__uuid__": "…" })");
+            return materials_.addDefault();
+        }
+        const AssetRef asset = readAssetRef(*ref);
+        if (const int own = models_.material(asset); own >= 0) return own;
+        const int index = materials_.add(asset, fmt::format("the material of '{}'", name));
+        return index >= 0 ? index : materials_.addDefault();
+    }
+
+    /// The cc.PrefabInfo of a node that stands for a prefab, or null.
+    const Value* prefabInstance(const ObjectGraph& graph, const Value& node) {
+        const Value* ref = node.find("_prefab");
+        const Value* info = ref && !ref->isNull() ? graph.resolve(*ref, "'_prefab'", problems_) : nullptr;
+        const Value* instance = info ? info->find("instance") : nullptr;
+        return instance && !instance->isNull() ? info : nullptr;
+    }
+
+    void placePrefab(const ObjectGraph& graph, const Value& node, const Value& info, const glm::mat4& parent, int depth,
+                     int prefabs) {
+        const AssetRef ref = FieldReader(info, problems_).asset("asset");
+        const MetaAsset* asset = ref ? project_.find(ref, "a prefab", problems_) : nullptr;
+        if (!asset) return;
+        Value placed = Value::makeObject(node.where());
+        applyOverrides(graph, info, placed);
+        if (!FieldReader(placed, problems_).boolean("_active", true)) return;
+        if (SceneModels::isModel(*asset)) {
+            if (lights_) models_.placeModel(*asset, parent * readTransform(placed, problems_), ref);
+            return;
+        }
+        if (asset->path.extension() != ".prefab" || prefabs >= kMaxPrefabs) {
+            if (lights_) ++skipped_[prefabs >= kMaxPrefabs ? "prefabs inside of prefabs" : "models that are not glTF"];
+            return;
+        }
+        try {
+            auto& prefab = prefabs_[asset->path];
+            if (!prefab) prefab = std::make_unique<ObjectGraph>(ObjectGraph::read(asset->path, kSceneLimits));
+            Value root = *rootNode(*prefab);
+            for (const Member& member : placed.members()) root.set(member.key, member.value);
+            root.erase("_prefab");
+            walk(*prefab, root, parent, depth + 1, prefabs + 1);
+        } catch (const Error& error) {
+            problems_.add(error);
+        }
+    }
+
+    /// Overrides of the root's place; those of anything below are noted.
+    void applyOverrides(const ObjectGraph& graph, const Value& info, Value& placed) {
+        const Value* instance = graph.resolve(*info.find("instance"), "'instance'", problems_);
+        if (!instance) return;
+        const std::string rootId = FieldReader(info, problems_).text("fileId");
+        const Value* list = FieldReader(*instance, problems_).list("propertyOverrides");
+        for (const Value* change : graph.resolveList(list, "'propertyOverrides'", problems_)) {
+            const FieldReader fields(*change, problems_);
+            const Value* path = fields.list("propertyPath");
+            const Value* target = fields.find("targetInfo");
+            const Value* ids = target ? graph.resolve(*target, "'targetInfo'", problems_) : nullptr;
+            const Value* id = ids ? ids->find("localID") : nullptr;
+            const bool root = id && id->isArray() && id->items().size() == 1 && id->items()[0].isString() &&
+                              id->items()[0].string() == rootId;
+            const bool plain = path && path->items().size() == 1 && path->items()[0].isString();
+            const std::string key = plain ? path->items()[0].string() : "";
+            const bool place = key == "_lpos" || key == "_lrot" || key == "_lscale" || key == "_active";
+            const Value* value = change->find("value");
+            if (root && place && value) {
+                placed.set(key, *value);
+            } else if (lights_ && !(root && (key == "_name" || key == "_euler"))) {
+                ++skipped_["changes inside of prefabs"];
+            }
+        }
+    }
+
+    void takeCameras() {
+        std::stable_sort(cameras_.begin(), cameras_.end(),
+                         [](const ImportedCamera& a, const ImportedCamera& b) { return a.priority < b.priority; });
+        // Cameras of user interfaces are orthographic and draw over the others.
+        std::stable_partition(cameras_.begin(), cameras_.end(),
+                              [](const ImportedCamera& camera) { return !camera.camera.orthographic; });
+        for (const ImportedCamera& camera : cameras_) out_.scene.cameras.push_back(camera.camera);
+        double ev = std::log2(16.0 * 16 * 125);
+        if (!cameras_.empty()) {
+            ev = cameras_.front().ev;
+            out_.background = cameras_.front().clearColor;
+        }
+        out_.scene.exposureEv = float(ev);
+        exposure_ = exposureOf(ev);
+    }
+
+    void readGlobals(const ObjectGraph& graph, const Value& globals) {
+        if (const Value* ambient = section(graph, globals, {"ambient", "_ambient"}))
+            out_.scene.ambient = readAmbient(*ambient, hdr_, exposure_, problems_);
+        if (const Value* fog = section(graph, globals, {"fog", "_fog"})) out_.scene.fog = readFog(*fog, problems_);
+        const Value* skybox = section(graph, globals, {"_skybox", "skybox"});
+        if (skybox && FieldReader(*skybox, problems_).boolean("_enabled", false)) ++skipped_["the skybox"];
+    }
+
+    void noteSkipped() {
+        for (const auto& [what, count] : skipped_)
+            problems_.note({}, fmt::format("left out: {}{}", what, count > 1 ? fmt::format(", {} times", count) : ""));
+    }
+
+    Project& project_;
+    const LoadOptions& options_;
+    Problems& problems_;
+    ImportedScene out_;
+    SceneMaterials materials_;
+    SceneModels models_;
+    std::vector<ImportedCamera> cameras_;
+    std::map<std::string, std::size_t> skipped_;
+    std::map<std::filesystem::path, std::unique_ptr<ObjectGraph>> prefabs_;
+    std::vector<const Value*> path_;
+    std::size_t visited_ = 0;
+    bool hdr_ = true, lights_ = false;
+    double exposure_ = 1;
+};
+
+}  // namespace
+
+ImportedScene importScene(const std::filesystem::path& path, Project& project, MaterialForm form,
+                          const LoadOptions& options, Problems& problems) {
+    return SceneImporter(project, form, options, problems).run(path);
+}
+
+}  // namespace crevice::cocos

@@ -1,0 +1,25 @@
+// A .scene (or .prefab) of Cocos Creator as one of our scenes: cameras, lights, mesh renderers, ambient light and fog.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+
+#include "cocos/Project.h"
+#include "cocos/SceneMaterials.h"
+#include "scene/GltfLoader.h"
+#include "scene/Scene.h"
+
+namespace crevice::cocos {
+
+struct ImportedScene {
+    Scene scene{};
+    std::optional<glm::vec4> background{};  ///< Clear colour of the first camera, where it clears colour.
+};
+
+/// Units: illuminance in lux, candela = luminance x pi x size² for sphere and spot lights, exposure from aperture,
+/// shutter and ISO of the first camera. What is not read is one note a kind. Throws Error when the file is no scene;
+/// collects other errors.
+ImportedScene importScene(const std::filesystem::path& path, Project& project, MaterialForm form,
+                          const LoadOptions& options, Problems& problems);
+
+}  // namespace crevice::cocos

@@ -1,0 +1,123 @@
+// A glTF is loaded whole and its lists are appended to the scene's; renderers then pick parts of it.
+#include "cocos/SceneModels.h"
+
+#include <algorithm>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "cocos/Shapes.h"
+#include "cocos/Tangents.h"
+#include "cocos/Uuid.h"
+
+namespace crevice::cocos {
+namespace {
+
+void shift(TextureRef& ref, int by) {
+    if (ref) ref.texture += by;
+}
+
+int gltfIndexOf(const MetaAsset& asset) {
+    const Value* index = asset.userData.isObject() ? asset.userData.find("gltfIndex") : nullptr;
+    const bool small = index && index->isInteger() && index->integer() >= 0 && index->integer() < 1'000'000;
+    return small ? int(index->integer()) : -1;
+}
+
+}  // namespace
+
+bool SceneModels::isModel(const MetaAsset& asset) {
+    const std::string ending = asset.path.extension().string();
+    return ending == ".gltf" || ending == ".glb";
+}
+
+SceneModels::Model& SceneModels::load(const MetaAsset& asset, const AssetRef& ref) {
+    const auto [known, isNew] = models_.try_emplace(asset.path);
+    Model& model = known->second;
+    if (!isNew) return model;
+    Scene loaded;
+    try {
+        loaded = loadGltf(asset.path, options_);
+    } catch (const Error& error) {
+        problems_.error(ref.where, fmt::format("model '{}' cannot be read", asset.path.string()), "see below");
+        problems_.add(error);
+        return model;
+    }
+    model.good = true;
+    model.meshBase = int(scene_.meshes.size());
+    model.materialBase = int(scene_.materials.size());
+    model.textureBase = int(scene_.textures.size());
+    model.materialCount = loaded.materials.size();
+    std::move(loaded.textures.begin(), loaded.textures.end(), std::back_inserter(scene_.textures));
+    for (const Instance& instance : loaded.instances) {
+        Mesh& mesh = loaded.meshes[std::size_t(instance.mesh)];
+        if (!mesh.hasTangents && loaded.materials[std::size_t(instance.material)].normalMap) addTangents(mesh);
+    }
+    std::move(loaded.meshes.begin(), loaded.meshes.end(), std::back_inserter(scene_.meshes));
+    for (SceneMaterial& material : loaded.materials) {
+        for (TextureRef* texture : {&material.baseColorMap, &material.metallicRoughnessMap, &material.normalMap,
+                                    &material.occlusionMap, &material.emissiveMap})
+            shift(*texture, model.textureBase);
+        materials_.translate(material);
+        scene_.materials.push_back(std::move(material));
+    }
+    for (Instance instance : loaded.instances) {
+        instance.mesh += model.meshBase;
+        instance.material += model.materialBase;
+        model.instances.push_back(std::move(instance));
+    }
+    return model;
+}
+
+std::vector<ModelPart> SceneModels::mesh(const AssetRef& ref, const std::string& what) {
+    const auto uuid = normalizeUuid(ref.uuid);
+    if (uuid && parentUuid(*uuid) == kPrimitivesUuid) {
+        const auto [known, isNew] = shapes_.try_emplace(*uuid);
+        if (isNew) {
+            if (auto shape = makeShape(shapeName(uuid->substr(kPrimitivesUuid.size() + 1)))) {
+                scene_.meshes.push_back(std::move(*shape));
+                known->second = {{int(scene_.meshes.size()) - 1, -1}};
+            } else {
+                problems_.error(ref.where, fmt::format("'{}' is none of the built-in meshes", ref.uuid),
+                                "box, sphere, capsule, cylinder, cone, torus, plane and quad are known");
+            }
+        }
+        return known->second;
+    }
+    const MetaAsset* asset = project_.find(ref, what, problems_);
+    if (!asset) return {};
+    if (!isModel(*asset)) {
+        problems_.warning(ref.where, fmt::format("model '{}' is left out", asset->path.filename().string()),
+                          "models must be .gltf or .glb");
+        return {};
+    }
+    const int index = gltfIndexOf(*asset);
+    const Model& model = load(*asset, ref);
+    std::vector<ModelPart> parts;
+    std::set<int> taken;
+    for (const Instance& instance : model.instances) {
+        if (instance.sourceMesh == index && taken.insert(instance.mesh).second)
+            parts.push_back({instance.mesh, instance.material});
+    }
+    if (parts.empty() && model.good)
+        problems_.warning(ref.where, fmt::format("mesh {} of '{}' is shown by no node of it and left out", index,
+                                                 asset->path.filename().string()));
+    return parts;
+}
+
+int SceneModels::material(const AssetRef& ref) {
+    const MetaAsset* asset = project_.metas().find(ref.uuid);
+    if (!asset || !isModel(*asset)) return -1;
+    const Model& model = load(*asset, ref);
+    const int index = gltfIndexOf(*asset);
+    return index >= 0 && std::size_t(index) < model.materialCount ? model.materialBase + index : -1;
+}
+
+void SceneModels::placeModel(const MetaAsset& asset, const glm::mat4& world, const AssetRef& ref) {
+    for (Instance instance : load(asset, ref).instances) {
+        instance.world = world * instance.world;
+        instance.flipped = glm::determinant(glm::mat3(instance.world)) < 0;
+        scene_.instances.push_back(std::move(instance));
+    }
+}
+
+}  // namespace crevice::cocos
