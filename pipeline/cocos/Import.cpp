@@ -66,7 +66,7 @@ public:
         StageImporter stages(request_, version_, project_, targets, problems_);
         Value flows = Value::makeArray();
         for (const RppFlow& flow : pipeline.flows) addFlow(flow, stages, flows);
-        return {pipeline.name, readableJson(makeDocument(pipeline, stages, targets, std::move(flows))), version_};
+        return {pipeline.name, readableJson(makeDocument(pipeline, targets, std::move(flows))), version_};
     }
 
 private:
@@ -105,21 +105,13 @@ private:
         flows.items().push_back(std::move(out));
     }
 
-    Value makeDocument(const RppPipeline& pipeline, const StageImporter& stages, ImportTargets& targets, Value flows) {
+    Value makeDocument(const RppPipeline& pipeline, ImportTargets& targets, Value flows) {
         Value document = Value::makeObject();
         document.set("name", word(pipeline.name));
         document.set("help",
                      word(fmt::format("Translated from {} ({}).", request_.rpp.filename().string(), pipeline.type)));
         document.set("profile", word(version_.profile));
         document.set("output", word("finalColor"));
-        if (stages.hasShadows()) {
-            Value shadows = Value::makeObject(), options = Value::makeObject();
-            shadows.set("type", word("bool"));
-            shadows.set("default", Value::makeBool(false));
-            shadows.set("help", word("Draw shadow maps."));
-            options.set("shadows", std::move(shadows));
-            document.set("options", std::move(options));
-        }
         document.set("targets", targets.take());
         document.set("flows", std::move(flows));
         return document;

@@ -27,6 +27,7 @@ struct LeftOut {
     const char* why;
 };
 constexpr LeftOut kLeftOut[] = {
+    {"ShadowStage", "effects of Cocos are drawn without shadow maps"},
     {"BloomStage", "the engine draws it only where bloom is switched on by a script"},
     {"ReflectionProbeStage", "reflection probes are not drawn"},
     {"UIStage", "user interfaces are not drawn"},
@@ -51,30 +52,22 @@ std::vector<Value> StageImporter::translate(const RppStage& stage) {
         Translate translate;
     };
     static constexpr Known kKnown[] = {
-        {"ShadowStage", &StageImporter::shadowStages},          {"GbufferStage", &StageImporter::geometryStage},
-        {"ForwardStage", &StageImporter::geometryStage},        {"LightingStage", &StageImporter::lightingStages},
-        {"PostprocessStage", &StageImporter::postProcessStage}, {"PostProcessStage", &StageImporter::postProcessStage},
+        {"GbufferStage", &StageImporter::geometryStage},        {"ForwardStage", &StageImporter::geometryStage},
+        {"LightingStage", &StageImporter::lightingStage},       {"PostprocessStage", &StageImporter::postProcessStage},
+        {"PostProcessStage", &StageImporter::postProcessStage},
     };
     for (const Known& known : kKnown) {
         if (stage.type == known.type) return (this->*known.translate)(stage);
     }
-    if (factsOf(stage.type)) return userStage(stage);
     for (const LeftOut& left : kLeftOut) {
-        if (stage.type != left.type) continue;
-        problems_.note(stage.where, fmt::format("stage '{}' is left out: {}", stage.type, left.why),
-                       fmt::format("register a stage class '{}' to run it", stage.type));
+        // Classes of these names that a plugin brings are run.
+        if (stage.type != left.type || (left.type != std::string("ShadowStage") && factsOf(stage.type))) continue;
+        problems_.note(stage.where, fmt::format("stage '{}' is left out: {}", stage.type, left.why));
         return {};
     }
+    if (factsOf(stage.type)) return userStage(stage);
     unknownClass(stage);
     return {};
-}
-
-std::vector<Value> StageImporter::shadowStages(const RppStage& stage) {
-    hasShadows_ = true;
-    targets_.addShadowMap("cc_shadowMap", 1024);
-    Value out = begin("ShadowStage", stage);
-    out.set("enabled", word("$shadows"));
-    return listOf(std::move(out));
 }
 
 std::vector<Value> StageImporter::geometryStage(const RppStage& stage) {
@@ -102,21 +95,13 @@ std::vector<Value> StageImporter::geometryStage(const RppStage& stage) {
     return stages;
 }
 
-std::vector<Value> StageImporter::lightingStages(const RppStage& stage) {
+std::vector<Value> StageImporter::lightingStage(const RppStage& stage) {
     Value out = begin("LightingStage", stage);
     addMaterial(out, stage, "_deferredMaterial", "pipeline/deferred-lighting");
     noteFields(stage, {"_deferredMaterial"});
-    std::vector<Value> stages = listOf(std::move(out));
     const Value blended = queuesOf(stage, true);
-    if (!blended.items().empty()) {
-        Value second = begin("TransparentStage", stage, "Transparent");
-        Value writes = Value::makeArray();
-        writes.items().push_back(word(targets_.litName()));
-        second.set("writes", writes);
-        second.set("queues", blended);
-        stages.push_back(std::move(second));
-    }
-    return stages;
+    if (!blended.items().empty()) out.set("queues", blended);
+    return listOf(std::move(out));
 }
 
 std::vector<Value> StageImporter::postProcessStage(const RppStage& stage) {

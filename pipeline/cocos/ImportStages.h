@@ -1,4 +1,4 @@
-// Internal to the importer: one Cocos stage becomes one or two of ours.
+// Internal to the importer: one Cocos stage becomes one of ours; a forward stage two.
 #pragma once
 
 #include <set>
@@ -17,13 +17,10 @@ public:
 
     /// Our stages for one of Cocos', each an object of the document. Empty for those that are left out, with a note.
     std::vector<Value> translate(const RppStage& stage);
-    /// Whether a stage wrote the frame's shadow maps: the document then has the option `shadows`.
-    bool hasShadows() const { return hasShadows_; }
 
 private:
-    std::vector<Value> shadowStages(const RppStage& stage);
     std::vector<Value> geometryStage(const RppStage& stage);
-    std::vector<Value> lightingStages(const RppStage& stage);
+    std::vector<Value> lightingStage(const RppStage& stage);
     std::vector<Value> postProcessStage(const RppStage& stage);
     std::vector<Value> userStage(const RppStage& stage);
 
@@ -42,7 +39,6 @@ private:
     ImportTargets& targets_;
     Problems& problems_;
     std::set<std::string> names_;
-    bool hasShadows_ = false;
 };
 
 }  // namespace crevice::cocos

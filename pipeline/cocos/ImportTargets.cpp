@@ -75,12 +75,6 @@ void ImportTargets::addOcclusion(const std::string& name, bool v33) {
     list_.find(name)->set("sampler", word("point-clamp"));
 }
 
-void ImportTargets::addShadowMap(const std::string& name, int size) {
-    if (has(name)) return;
-    addSized(name, "D32F", size, size, "depth as the light sees it");
-    list_.find(name)->set("clear", Value::makeNumber(1));
-}
-
 void ImportTargets::addOf(const RppPipeline& pipeline, Project& project, Problems& problems) {
     for (const RppTextureDesc& desc : pipeline.textures) {
         const std::string format = formatName(desc.format);

@@ -25,6 +25,23 @@ const MtlPass* lenderOf(const Mtl& mtl, const EffectPass& pass) {
     return index < mtl.passes.size() ? &mtl.passes[index] : nullptr;
 }
 
+/// The editor writes empty objects for every state; what says nothing is left out.
+bool saysNothing(const Value& value) {
+    if (value.isObject()) {
+        return std::all_of(value.members().begin(), value.members().end(),
+                           [](const Member& member) { return saysNothing(member.value); });
+    }
+    return value.isNull() || (value.isArray() && std::all_of(value.items().begin(), value.items().end(), saysNothing));
+}
+
+Value statesOf(const MtlPass& pass) {
+    Value states = Value::makeObject(pass.states.where());
+    if (!pass.states.isObject()) return states;
+    for (const Member& member : pass.states.members())
+        if (!saysNothing(member.value)) states.set(member.key, member.value, member.keyLoc);
+    return states;
+}
+
 std::string uniformOf(const EffectProperty& property) {
     return property.target.empty() ? property.name : property.target.substr(0, property.target.find('.'));
 }
@@ -78,7 +95,7 @@ public:
         MaterialPass result;
         result.defines = merged(own.defines, lender ? &lender->defines : nullptr);
         for (const auto& [name, value] : pass.embeddedMacros) result.defines.erase(name);
-        result.states = own.states.isObject() ? own.states : Value::makeObject();
+        result.states = statesOf(own);
         result.properties = Value::makeObject(mtl_.where);
         for (const MtlProperty& property : own.properties) setProperty(pass, property, result.properties);
         if (lender && lender != &own)

@@ -32,8 +32,8 @@ public:
         const ObjectGraph graph = ObjectGraph::read(path, kSceneLimits);
         const Value* root = rootNode(graph);
         out_.scene.name = path.stem().string();
-        const Value* globals =
-            graph.resolve(root->find("_globals") ? *root->find("_globals") : Value(), "'_globals'", problems_);
+        const Value* written = root->find("_globals");
+        const Value* globals = written ? graph.resolve(*written, "'_globals'", problems_) : nullptr;
         hdr_ = isHdr(graph, globals);
         lights_ = false;
         walk(graph, *root, glm::mat4(1), 0, 0);

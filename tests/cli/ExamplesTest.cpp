@@ -1,5 +1,6 @@
 // Every example that a --help shows is run.
 #include <algorithm>
+#include <fstream>
 
 #include "CliTools.h"
 
@@ -52,6 +53,7 @@ protected:
 TEST_F(ExamplesTest, EveryExampleRuns) {
     ASSERT_EQ(run("render crease -o a.png --size 16x16").code, 0);  // what the examples of `compare` read
     std::filesystem::copy_file(path("a.png"), path("b.png"));
+    std::ofstream(path("mine.rpp")) << R"({ "__type__": "DeferredPipeline", "_flows": [] })";  // and of `import`
     std::size_t count = 0;
     runExamples("", count);
     EXPECT_GE(count, 20u);

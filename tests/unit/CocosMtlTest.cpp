@@ -189,6 +189,15 @@ TEST(CocosMtl, WrongKindsAreErrorsAtTheirPlace) {
     EXPECT_TRUE(contains(text, "property 'mainColor' is of type 'cc.Gradient'"));
 }
 
+TEST(CocosMtl, StatesThatSayNothingAreLeftOut) {
+    const MaterialEffect made = make(read(R"({ "__type__": "cc.Material", "_states": [
+        { "rasterizerState": {}, "depthStencilState": {}, "blendState": { "targets": [ {} ] } },
+        { "rasterizerState": { "cullMode": 0 }, "blendState": { "targets": [ {}, { "blend": true } ] }, "priority": 200 } ] })"));
+    EXPECT_EQ(made.passes[0].states.toJson(-1), "{}");
+    EXPECT_EQ(made.passes[1].states.toJson(-1),
+              R"({"rasterizerState":{"cullMode":0},"blendState":{"targets":[{},{"blend":true}]},"priority":200})");
+}
+
 TEST(CocosMtl, ATechniqueThatTheEffectLacksIsAnError) {
     const std::string text = errorOf([&] { make(read(R"({ "__type__": "cc.Material", "_techIdx": 3 })")); });
     EXPECT_TRUE(contains(text, "material 'm' uses technique 3, but effect 'builtin-standard' has 1")) << text;

@@ -16,8 +16,8 @@ namespace {
 
 constexpr const char* kExamples =
     "Examples:\n"
-    "  crevice import assets/pipeline/ssao.rpp -o ssao.pipeline.json --engine ../cocos-engine-3.6.1\n"
-    "  crevice import ssao.rpp --cocos-version 3.3.1\n";
+    "  crevice import mine.rpp -o mine.pipeline.json\n"
+    "  crevice import mine.rpp --cocos-version 3.3.1\n";
 
 struct ImportOptions {
     std::string rpp, out;

@@ -6,6 +6,7 @@
 #include "app/commands/ArgumentText.h"
 #include "app/commands/Commands.h"
 #include "app/commands/Console.h"
+#include "app/commands/OpenScene.h"
 #include "app/commands/PipelineOptions.h"
 #include "app/commands/SceneFiles.h"
 
@@ -35,9 +36,10 @@ int runPlan(const PlanOptions& options) {
     pipeline.addEffects(library);
     FrameProgram program(pipeline.desc(), pipeline.classes().registry(), library, log,
                          {.width = size.x, .height = size.y});
-    const Scene scene = options.scene.empty() ? makeSampleScene()
-                                              : loadSceneFile(findScene(pipeline.roots(), options.scene),
-                                                              pipeline.roots(), log, options.loading);
+    const Scene scene =
+        options.scene.empty()
+            ? makeSampleScene()
+            : openScene(findScene(pipeline.roots(), options.scene), pipeline, log, options.loading).scene;
     program.prepare(&scene);
     log.write(program.plan().notes);
     print(options.dot ? planDot(program.plan())

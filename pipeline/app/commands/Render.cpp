@@ -10,6 +10,7 @@
 #include "app/commands/Commands.h"
 #include "app/commands/DumpTarget.h"
 #include "app/commands/Interrupt.h"
+#include "app/commands/OpenScene.h"
 #include "app/commands/OutputFiles.h"
 #include "app/commands/RenderOptions.h"
 #include "app/commands/Timings.h"
@@ -72,7 +73,9 @@ void RenderRun::loadScene(std::size_t index) {
     const RenderItem& item = job_.items[index];
     progress_.show(fmt::format("{}/{} {}: loading …", index + 1, job_.items.size(), item.scene.name));
     watch_.lap();
-    scene_ = loadSceneFile(item.scene, pipeline_.roots(), makeLog(options_.console, progress_), options_.loading);
+    OpenedScene opened = openScene(item.scene, pipeline_, makeLog(options_.console, progress_), options_.loading);
+    scene_ = std::move(opened.scene);
+    if (opened.background && options_.view.background.empty()) job_.view.background = *opened.background;
     Limits limits;
     for (const std::string& limit : options_.loading.limits) setLimit(limits, limit);
     job_.environment.apply(scene_, makeLog(options_.console, progress_), limits);

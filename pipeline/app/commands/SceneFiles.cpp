@@ -15,7 +15,7 @@ namespace crevice {
 
 SceneFile findScene(const AssetRoots& roots, const std::string& argument) {
     const std::filesystem::path path = argument;
-    for (const std::string ending : {".scene.json", ".gltf", ".glb"}) {
+    for (const std::string ending : {".scene.json", ".gltf", ".glb", ".scene"}) {
         const std::string file = path.filename().string();
         if (!file.ends_with(ending) || file == ending) continue;
         std::error_code failed;
@@ -46,7 +46,7 @@ void addSceneOptions(CLI::App& command, SceneOptions& options) {
         ->allow_extra_args(false);
 }
 
-Scene loadSceneFile(const SceneFile& file, const AssetRoots& roots, const Log& log, const SceneOptions& options) {
+LoadOptions makeLoadOptions(const AssetRoots& roots, const Log& log, const SceneOptions& options) {
     LoadOptions load{.log = log, .allowedRoots = roots.roots(), .allowOutside = options.allowOutside};
     for (const std::string& path : options.allowedPaths) {
         std::error_code failed;
@@ -55,7 +55,11 @@ Scene loadSceneFile(const SceneFile& file, const AssetRoots& roots, const Log& l
         load.allowedRoots.emplace_back(path);
     }
     for (const std::string& limit : options.limits) setLimit(load.limits, limit);
-    return loadScene(file.path, load);
+    return load;
+}
+
+Scene loadSceneFile(const SceneFile& file, const AssetRoots& roots, const Log& log, const SceneOptions& options) {
+    return loadScene(file.path, makeLoadOptions(roots, log, options));
 }
 
 Scene makeSampleScene() {

@@ -7,6 +7,7 @@
 
 #include "core/Files.h"
 #include "core/Log.h"
+#include "scene/GltfLoader.h"
 #include "scene/Scene.h"
 
 namespace CLI {
@@ -30,7 +31,10 @@ struct SceneFile {
 
 /// Throws Error with near names when it is neither a scene file nor the name of a shipped scene.
 SceneFile findScene(const AssetRoots& roots, const std::string& argument);
-/// Throws Error, also for an --allow-path that is no folder and a --limit that does not exist.
+/// `log` must outlive what is made. Throws Error for an --allow-path that is no folder and a --limit that does not
+/// exist.
+LoadOptions makeLoadOptions(const AssetRoots& roots, const Log& log, const SceneOptions& options);
+/// Throws Error, as makeLoadOptions() does, too.
 Scene loadSceneFile(const SceneFile& file, const AssetRoots& roots, const Log& log, const SceneOptions& options = {});
 
 /// A box with a plain material: what pipelines are checked with when no scene is given, so that the effects that draw

@@ -7,6 +7,7 @@
 
 #include "app/commands/Commands.h"
 #include "app/commands/Console.h"
+#include "app/commands/OpenScene.h"
 #include "app/commands/PipelineOptions.h"
 #include "app/commands/SceneFiles.h"
 
@@ -32,9 +33,10 @@ void validatePipeline(const std::string& name, const ValidateOptions& options, c
     EffectLibrary library(pipeline.roots(), log, {.useDiskCache = !options.noCache});
     pipeline.addEffects(library);
     FrameProgram program(pipeline.desc(), pipeline.classes().registry(), library, log, {});
-    const Scene scene = options.scene.empty() ? makeSampleScene()
-                                              : loadSceneFile(findScene(pipeline.roots(), options.scene),
-                                                              pipeline.roots(), log, options.loading);
+    const Scene scene =
+        options.scene.empty()
+            ? makeSampleScene()
+            : openScene(findScene(pipeline.roots(), options.scene), pipeline, log, options.loading).scene;
     program.prepare(&scene);
     log.write(program.globals().notes());
     log.write(program.plan().notes);

@@ -1,0 +1,32 @@
+// The project decides how materials are written, the file's ending who reads it.
+#include "app/commands/OpenScene.h"
+
+#include "cocos/SceneImport.h"
+
+namespace crevice {
+
+OpenedScene openScene(const SceneFile& file, const PipelineChoice& pipeline, const Log& log,
+                      const SceneOptions& options) {
+    const bool profile = isCocos(pipeline.desc().profile);
+    OpenedScene opened;
+    Problems problems;
+    if (isCocosScene(file.path.string())) {
+        const LoadOptions load = makeLoadOptions(pipeline.roots(), log, options);
+        const auto form = profile ? cocos::MaterialForm::Effects : cocos::MaterialForm::Plain;
+        try {
+            auto imported = cocos::importScene(file.path, pipeline.cocos()->assets(log), form, load, problems);
+            opened = {std::move(imported.scene), imported.background};
+        } catch (const Error& error) {
+            problems.add(error);
+        }
+    } else {
+        opened.scene = loadSceneFile(file, pipeline.roots(), log, options);
+        if (profile && pipeline.cocos())
+            cocos::translateMaterials(opened.scene, pipeline.cocos()->assets(log), problems);
+    }
+    problems.throwIfErrors();
+    log.write(problems);
+    return opened;
+}
+
+}  // namespace crevice

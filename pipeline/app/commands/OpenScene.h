@@ -1,0 +1,21 @@
+// A scene for a pipeline: with a Cocos project in use, its materials are those of the project's effects.
+#pragma once
+
+#include <optional>
+
+#include "app/commands/PipelineOptions.h"
+#include "app/commands/SceneFiles.h"
+
+namespace crevice {
+
+struct OpenedScene {
+    Scene scene{};
+    std::optional<glm::vec4> background{};  ///< Clear colour of a Cocos scene's camera.
+};
+
+/// Reads any scene file, .scene of Cocos Creator too. Materials become effects of the project where the pipeline has a
+/// Cocos profile. Throws Error.
+OpenedScene openScene(const SceneFile& file, const PipelineChoice& pipeline, const Log& log,
+                      const SceneOptions& options = {});
+
+}  // namespace crevice

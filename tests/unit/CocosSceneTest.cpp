@@ -1,0 +1,434 @@
+// .scene files: nodes, cameras, lights in their units, shapes, materials, prefabs, and files that are wrong.
+#include "cocos/SceneImport.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "SceneTestTools.h"
+#include "cocos/SceneComponents.h"
+#include "cocos/Shapes.h"
+#include "cocos/StandardMaterial.h"
+#include "cocos/Tangents.h"
+#include "core/Files.h"
+#include "scene/Primitives.h"
+
+namespace crevice::cocos {
+namespace {
+
+namespace fs = std::filesystem;
+using test::contains;
+using test::errorOf;
+using test::TempFolder;
+
+constexpr const char* kStandard = "1baf0fc9-befa-459c-8bdd-af1a450a0319";
+constexpr const char* kPaint = "10ff50d1-0000-4000-8000-000000f1736b";
+constexpr const char* kModel = "20ff50d1-0000-4000-8000-000000f1736b";
+
+/// Two triangles, one a node's mesh 0 and one mesh 1, with a red material each; the buffer is written beside it.
+constexpr const char* kGltf = R"({ "asset": { "version": "2.0" }, "scene": 0, "scenes": [ { "nodes": [ 0, 1 ] } ],
+  "nodes": [ { "mesh": 0, "name": "a" }, { "mesh": 1, "name": "b", "translation": [ 5, 0, 0 ] } ],
+  "meshes": [ { "primitives": [ { "attributes": { "POSITION": 0 }, "material": 0 } ] },
+              { "primitives": [ { "attributes": { "POSITION": 0 }, "material": 1 } ] } ],
+  "materials": [ { "name": "m0" }, { "name": "m1", "pbrMetallicRoughness": { "roughnessFactor": 0.25 } } ],
+  "accessors": [ { "bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3", "min": [ 0, 0, 0 ], "max": [ 1, 1, 0 ] } ],
+  "bufferViews": [ { "buffer": 0, "byteLength": 36 } ], "buffers": [ { "byteLength": 36, "uri": "m.bin" } ] })";
+
+struct SceneFolder {
+    TempFolder folder;
+    std::string notes;
+
+    SceneFolder() {
+        write("engine/effects/builtin-standard.effect", R"(CCEffect %{
+  techniques:
+  - name: opaque
+    passes:
+    - { vert: v, frag: f, properties: { mainColor: { value: [1, 1, 1, 1] }, metallic: { value: 0.6 }, mainTexture: { value: grey } } }
+    - { vert: v, frag: f, phase: forward-add, propertyIndex: 0, properties: { mainColor: { value: [1, 1, 1, 1] } } }
+  - name: transparent
+    passes:
+    - { vert: v, frag: f, properties: { mainColor: { value: [1, 1, 1, 1] } } }
+}%
+)");
+        write("engine/effects/builtin-standard.effect.meta", meta(kStandard, "effect"));
+        write(
+            "project/paint.mtl",
+            std::string(R"({ "__type__": "cc.Material", "_name": "paint", "_effectAsset": { "__uuid__": ")") +
+                kStandard +
+                R"(" }, "_props": [ { "metallic": 0.25, "mainColor": { "__type__": "cc.Color", "r": 0, "g": 204, "b": 255, "a": 255 } } ] })");
+        write("project/paint.mtl.meta", meta(kPaint, "material"));
+        write("project/m.gltf", kGltf);
+        const float corners[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
+        folder.write("project/m.bin", std::string_view(reinterpret_cast<const char*>(corners), sizeof corners));
+        const auto part = [](const char* id, const char* importer, int index) {
+            return std::string("\"") + id + R"(":{"importer":")" + importer + R"(","uuid":")" + kModel + "@" + id +
+                   R"(","userData":{"gltfIndex":)" + std::to_string(index) + "}}";
+        };
+        write("project/m.gltf.meta", R"({"importer":"gltf","uuid":")" + std::string(kModel) + R"(","subMetas":{)" +
+                                         part("aaaaa", "gltf-mesh", 0) + "," + part("bbbbb", "gltf-mesh", 1) + "," +
+                                         part("ccccc", "gltf-material", 1) + "," + part("ddddd", "gltf-scene", 0) +
+                                         "}}");
+    }
+    static std::string meta(const std::string& uuid, const std::string& importer) {
+        return R"({"importer":")" + importer + R"(","uuid":")" + uuid + "\"}";
+    }
+    void write(const std::string& name, const std::string& text) const { folder.write(name, text); }
+    ImportedScene load(const std::string& text, MaterialForm form = MaterialForm::Effects) {
+        write("project/x.scene", text);
+        Problems problems;
+        const EffectReader effects = [](const fs::path& path, const std::string& name, Problems& found) {
+            return parseEffect(readText(path), name, path.string(), found, EffectReading::Tolerant);
+        };
+        Project project({.chunks = {}, .project = folder.path() / "project", .engine = folder.path() / "engine"},
+                        effects, problems);
+        const Log quiet(LogLevel::Error, [](LogLevel, std::string_view) {});
+        ImportedScene imported =
+            importScene(folder.path() / "project/x.scene", project, form, {.log = quiet}, problems);
+        problems.throwIfErrors();
+        for (const Problem& problem : problems.all()) notes += formatProblem(problem) + "\n";
+        return imported;
+    }
+    std::string errors(const std::string& text) {
+        return errorOf([&] { load(text); });
+    }
+};
+
+/// A scene of one node with this component; `node` adds fields of the node, `globals` of the scene.
+std::string withComponent(const std::string& component, const std::string& node = "",
+                          const std::string& globals = "{}") {
+    return R"([ { "__type__": "cc.SceneAsset", "scene": { "__id__": 1 } },
+      { "__type__": "cc.Scene", "_children": [ { "__id__": 2 } ], "_globals": )" +
+           globals + R"( },
+      { "__type__": "cc.Node", "_name": "thing", "_components": [ { "__id__": 3 } ])" +
+           node + "}, " + component + "]";
+}
+
+std::string renderer(const std::string& mesh, const std::string& materials) {
+    return R"({ "__type__": "cc.MeshRenderer", "_mesh": { "__uuid__": ")" + mesh + R"(" }, "_materials": )" +
+           materials + "}";
+}
+
+const std::string kSphere = std::string(kPrimitivesUuid) + "@17020";
+
+TEST(CocosScene, TheDemosCameraHasItsExposure) {
+    SceneFolder folder;
+    const ImportedScene out = folder.load(withComponent(
+        R"({ "__type__": "cc.Camera", "_projection": 1, "_fov": 30, "_fovAxis": 0, "_near": 1, "_far": 120, "_clearFlags": 7,
+             "_color": { "__type__": "cc.Color", "r": 51, "g": 51, "b": 51, "a": 255 }, "_aperture": 19, "_shutter": 7, "_iso": 0 })",
+        R"(, "_lpos": { "__type__": "cc.Vec3", "x": -5.256, "y": 20.829, "z": 36.484 },
+             "_lrot": { "__type__": "cc.Quat", "x": 0, "y": 0.7071068, "z": 0, "w": 0.7071068 })"));
+    ASSERT_EQ(out.scene.cameras.size(), 1u);
+    const Camera& camera = out.scene.cameras[0];
+    EXPECT_FALSE(camera.orthographic);
+    EXPECT_NEAR(camera.fovY, 0.5235988, 1e-6);
+    EXPECT_FLOAT_EQ(camera.near, 1);
+    EXPECT_FLOAT_EQ(camera.far, 120);
+    EXPECT_NEAR(camera.position().y, 20.829, 1e-4);
+    // A quarter turn about y: -z becomes -x.
+    const glm::vec3 forward = -glm::vec3(glm::inverse(camera.view)[2]);
+    EXPECT_NEAR(forward.x, -1, 1e-5);
+    // ev = log2(16² · 125); 0.8333 / 2^ev = 2.604e-5
+    ASSERT_TRUE(out.scene.exposureEv);
+    EXPECT_NEAR(exposureOf(*out.scene.exposureEv), 2.604e-5, 1e-8);
+    ASSERT_TRUE(out.background);
+    EXPECT_NEAR(out.background->x, 0.2, 1e-6);
+}
+
+TEST(CocosScene, OrthographicHeightIsHalfAndSuchCamerasComeLast) {
+    SceneFolder folder;
+    const ImportedScene out =
+        folder.load(R"([ { "__type__": "cc.SceneAsset", "scene": { "__type__": "cc.Scene", "_children": [
+        { "__type__": "cc.Node", "_name": "ui", "_components": [ { "__type__": "cc.Camera", "_projection": 0, "_orthoHeight": 5, "_clearFlags": 6, "_priority": -5 } ] },
+        { "__type__": "cc.Node", "_name": "second", "_components": [ { "__type__": "cc.Camera", "_priority": 1 } ] },
+        { "__type__": "cc.Node", "_name": "main", "_components": [ { "__type__": "cc.Camera", "_priority": 0, "_clearFlags": 6 } ] } ] } } ])");
+    ASSERT_EQ(out.scene.cameras.size(), 3u);
+    EXPECT_EQ(out.scene.cameras[0].name, "main");
+    EXPECT_EQ(out.scene.cameras[1].name, "second");
+    EXPECT_EQ(out.scene.cameras[2].name, "ui");
+    EXPECT_TRUE(out.scene.cameras[2].orthographic);
+    EXPECT_FLOAT_EQ(out.scene.cameras[2].orthoHeight, 10);
+    EXPECT_FALSE(out.background);  // the main camera clears no colour
+}
+
+TEST(CocosScene, LightsKeepTheirUnits) {
+    SceneFolder folder;
+    const auto light = [&](const std::string& fields) {
+        return folder.load(withComponent("{" + fields + "}")).scene.lights.at(0);
+    };
+    const Light sun = light(
+        R"("__type__": "cc.DirectionalLight", "_illuminanceHDR": 65000, "_color": { "__type__": "cc.Color", "r": 255, "g": 51, "b": 0, "a": 255 })");
+    EXPECT_EQ(sun.type, LightType::Directional);
+    EXPECT_FLOAT_EQ(sun.intensity, 65000);
+    EXPECT_NEAR(sun.color.g, 0.2, 1e-6);
+    EXPECT_NEAR(sun.direction.z, -1, 1e-6);
+    EXPECT_FLOAT_EQ(light(R"("__type__": "cc.DirectionalLight", "_illuminance": 100)").intensity, 100);
+    // 1700 lm from a sphere: 1700 / (4 pi) candela, whatever its radius.
+    const Light sphere = light(R"("__type__": "cc.SphereLight", "_size": 0.15, "_range": 2)");
+    EXPECT_EQ(sphere.type, LightType::Point);
+    EXPECT_NEAR(sphere.intensity, 1700 / (4 * 3.14159265), 1e-2);
+    EXPECT_FLOAT_EQ(sphere.range, 2);
+    EXPECT_FLOAT_EQ(sphere.size, 0.15f);
+    EXPECT_NEAR(light(R"("__type__": "cc.SphereLight", "_size": 2, "_luminanceHDR": 10)").intensity, 40 * 3.14159265,
+                1e-3);
+    const Light spot = light(R"("__type__": "cc.SpotLight", "_size": 1, "_luminance": 7, "_spotAngle": 60)");
+    EXPECT_EQ(spot.type, LightType::Spot);
+    EXPECT_NEAR(spot.intensity, 7 * 3.14159265, 1e-4);
+    EXPECT_NEAR(spot.outerAngle, 0.5235988, 1e-6);  // half of the cone
+}
+
+TEST(CocosScene, WithoutHdrTheSmallNumbersCount) {
+    SceneFolder folder;
+    const ImportedScene out = folder.load(
+        withComponent(R"({ "__type__": "cc.DirectionalLight", "_illuminanceHDR": 5, "_illuminanceLDR": 1.5 })", "",
+                      R"({ "__type__": "cc.SceneGlobals", "_skybox": { "__type__": "cc.SkyboxInfo", "_useHDR": false },
+             "ambient": { "__type__": "cc.AmbientInfo", "_skyColorLDR": { "__type__": "cc.Vec4", "x": 1, "y": 1, "z": 1 }, "_skyIllumLDR": 0.5 } })"));
+    const double exposure = exposureOf(*out.scene.exposureEv);
+    EXPECT_NEAR(out.scene.lights.at(0).intensity * exposure, 1.5, 1e-4);
+    ASSERT_TRUE(out.scene.ambient);
+    EXPECT_NEAR(out.scene.ambient->sky.x * exposure, 0.5, 1e-4);
+}
+
+TEST(CocosScene, AmbientAndFogAreRead) {
+    SceneFolder folder;
+    const ImportedScene out =
+        folder.load(withComponent(R"({ "__type__": "cc.UITransform" })", "", R"({ "__type__": "cc.SceneGlobals",
+        "ambient": { "__type__": "cc.AmbientInfo", "_skyColor": { "__type__": "cc.Color", "r": 255, "g": 255, "b": 0, "a": 255 }, "_skyIllum": 20000,
+                     "_groundAlbedo": { "__type__": "cc.Vec4", "x": 0.2, "y": 0.2, "z": 0.2 } },
+        "_skybox": { "__type__": "cc.SkyboxInfo", "_enabled": true },
+        "fog": { "__type__": "cc.FogInfo", "_enabled": true, "_type": 2, "_fogDensity": 0.5, "_fogColor": { "__type__": "cc.Color", "r": 255, "g": 0, "b": 0, "a": 255 } } })"));
+    ASSERT_TRUE(out.scene.ambient);
+    EXPECT_EQ(out.scene.ambient->sky, glm::vec3(20000, 20000, 0));
+    EXPECT_NEAR(out.scene.ambient->ground.x, 4000, 1e-2);
+    EXPECT_EQ(out.scene.fog.type, FogType::Exp2);
+    EXPECT_FLOAT_EQ(out.scene.fog.density, 0.5f);
+    EXPECT_EQ(out.scene.fog.color, glm::vec3(1, 0, 0));
+    EXPECT_TRUE(contains(folder.notes, "left out: the skybox")) << folder.notes;
+    EXPECT_FALSE(contains(folder.notes, "UITransform"));
+}
+
+TEST(CocosScene, NodesMultiplyAndInactiveOnesAreGone) {
+    SceneFolder folder;
+    const std::string ball = renderer(kSphere, "[]");
+    const ImportedScene out =
+        folder.load(R"([ { "__type__": "cc.SceneAsset", "scene": { "__type__": "cc.Scene", "_children": [
+        { "__type__": "cc.Node", "_lpos": { "__type__": "cc.Vec3", "x": 10, "y": 0, "z": 0 }, "_lscale": { "__type__": "cc.Vec3", "x": 2, "y": 2, "z": 2 },
+          "_children": [ { "__type__": "cc.Node", "_name": "a", "_lpos": { "__type__": "cc.Vec3", "x": 1, "y": 2, "z": 3 }, "_components": [)" +
+                    ball + R"(] } ] },
+        { "__type__": "cc.Node", "_active": false, "_components": [)" +
+                    ball + R"(] },
+        { "__type__": "cc.Node", "_components": [ { "__type__": "cc.MeshRenderer", "_enabled": false, "_mesh": { "__uuid__": ")" +
+                    kSphere + R"(" } } ] },
+        { "__type__": "cc.Node", "_lscale": { "__type__": "cc.Vec3", "x": -1, "y": 1, "z": 1 }, "_components": [)" +
+                    ball + "] } ] } } ]");
+    ASSERT_EQ(out.scene.instances.size(), 2u);
+    EXPECT_EQ(out.scene.instances[0].name, "a");
+    EXPECT_EQ(glm::vec3(out.scene.instances[0].world[3]), glm::vec3(12, 4, 6));
+    EXPECT_FALSE(out.scene.instances[0].flipped);
+    EXPECT_TRUE(out.scene.instances[1].flipped);
+    EXPECT_EQ(out.scene.meshes.size(), 1u);  // shared
+}
+
+TEST(CocosScene, MaterialsBecomeEffects) {
+    SceneFolder folder;
+    const ImportedScene out =
+        folder.load(withComponent(renderer(kSphere, std::string(R"([ { "__uuid__": ")") + kPaint + R"(" } ])")));
+    const SceneMaterial& material = out.scene.materials.at(std::size_t(out.scene.instances.at(0).material));
+    EXPECT_EQ(material.name, "paint");
+    ASSERT_TRUE(material.effect);
+    EXPECT_EQ(material.effect->effect, "builtin-standard");
+    ASSERT_EQ(material.effect->passes.size(), 2u);
+    EXPECT_EQ(material.effect->passes[0].properties.toJson(-1), R"({"metallic":0.25,"mainColor":[0,0.8,1,1]})");
+    EXPECT_EQ(material.effect->passes[1].properties.toJson(-1), R"({"mainColor":[0,0.8,1,1]})");
+}
+
+TEST(CocosScene, ThePlainFormIsForOurOwnEffects) {
+    SceneFolder folder;
+    const ImportedScene out =
+        folder.load(withComponent(renderer(kSphere, std::string(R"([ { "__uuid__": ")") + kPaint + R"(" } ])")),
+                    MaterialForm::Plain);
+    const SceneMaterial& material = out.scene.materials.at(std::size_t(out.scene.instances.at(0).material));
+    EXPECT_FALSE(material.effect);
+    EXPECT_NEAR(material.baseColor.g, 0.64, 1e-5);  // 0.8 squared
+    EXPECT_FLOAT_EQ(material.metallic, 0.25f);
+    EXPECT_FLOAT_EQ(material.roughness, 0.8f);
+}
+
+TEST(CocosScene, MeshesOfModelsAreFoundByTheirNumber) {
+    SceneFolder folder;
+    const ImportedScene out =
+        folder.load(withComponent(renderer(std::string(kModel) + "@bbbbb", "[ null ]"),
+                                  R"(, "_lpos": { "__type__": "cc.Vec3", "x": 0, "y": 7, "z": 0 })"));
+    ASSERT_EQ(out.scene.instances.size(), 1u);
+    EXPECT_EQ(glm::vec3(out.scene.instances[0].world[3]), glm::vec3(0, 7, 0));  // the file's own node does not count
+    const SceneMaterial& material = out.scene.materials.at(std::size_t(out.scene.instances[0].material));
+    EXPECT_EQ(material.name, "m1");
+    ASSERT_TRUE(material.effect);  // translated as the editor's importer does
+    EXPECT_EQ(material.effect->passes.at(0).properties.find("mainColor")->toJson(-1), "[1,1,1,1]");
+    const ImportedScene other = folder.load(withComponent(
+        renderer(std::string(kModel) + "@aaaaa", std::string(R"([ { "__uuid__": ")") + kModel + R"(@ccccc" } ])")));
+    EXPECT_EQ(other.scene.materials.at(std::size_t(other.scene.instances.at(0).material)).name, "m1");
+}
+
+TEST(CocosScene, APrefabOfAModelIsPlacedWhole) {
+    SceneFolder folder;
+    const ImportedScene out = folder.load(R"([ { "__type__": "cc.SceneAsset", "scene": { "__id__": 1 } },
+      { "__type__": "cc.Scene", "_children": [ { "__id__": 2 } ] },
+      { "__type__": "cc.Node", "_prefab": { "__id__": 3 } },
+      { "__type__": "cc.PrefabInfo", "fileId": "root", "asset": { "__uuid__": ")" +
+                                          std::string(kModel) + R"(@ddddd" }, "instance": { "__id__": 4 } },
+      { "__type__": "cc.PrefabInstance", "propertyOverrides": [ { "__id__": 5 }, { "__id__": 6 }, { "__id__": 7 } ] },
+      { "__type__": "CCPropertyOverrideInfo", "targetInfo": { "__id__": 8 }, "propertyPath": [ "_lpos" ], "value": { "__type__": "cc.Vec3", "x": 1, "y": 2, "z": 3 } },
+      { "__type__": "CCPropertyOverrideInfo", "targetInfo": { "__id__": 8 }, "propertyPath": [ "_name" ], "value": "suit" },
+      { "__type__": "CCPropertyOverrideInfo", "targetInfo": { "__id__": 9 }, "propertyPath": [ "_lpos" ], "value": { "__type__": "cc.Vec3", "x": 9, "y": 9, "z": 9 } },
+      { "__type__": "cc.TargetInfo", "localID": [ "root" ] }, { "__type__": "cc.TargetInfo", "localID": [ "inner" ] } ])");
+    ASSERT_EQ(out.scene.instances.size(), 2u);
+    EXPECT_EQ(glm::vec3(out.scene.instances[0].world[3]), glm::vec3(1, 2, 3));
+    EXPECT_EQ(glm::vec3(out.scene.instances[1].world[3]), glm::vec3(6, 2, 3));
+    EXPECT_TRUE(contains(folder.notes, "left out: changes inside of prefabs")) << folder.notes;
+}
+
+TEST(CocosScene, APrefabFileIsReadOneLevelDeep) {
+    SceneFolder folder;
+    const std::string uuid = "30ff50d1-0000-4000-8000-000000f1736b";
+    folder.write("project/p.prefab.meta", SceneFolder::meta(uuid, "prefab"));
+    folder.write("project/p.prefab", R"([ { "__type__": "cc.Prefab", "data": { "__id__": 1 } },
+      { "__type__": "cc.Node", "_children": [ { "__id__": 2 } ], "_prefab": null },
+      { "__type__": "cc.Node", "_name": "in", "_components": [)" +
+                                         renderer(kSphere, "[]") + "] } ]");
+    const ImportedScene out =
+        folder.load(R"([ { "__type__": "cc.SceneAsset", "scene": { "__type__": "cc.Scene", "_children": [
+      { "__type__": "cc.Node", "_prefab": { "__type__": "cc.PrefabInfo", "fileId": "root", "asset": { "__uuid__": ")" +
+                    uuid + R"(" },
+        "instance": { "__type__": "cc.PrefabInstance", "propertyOverrides": [ { "targetInfo": { "localID": [ "root" ] }, "propertyPath": [ "_lpos" ],
+          "value": { "__type__": "cc.Vec3", "x": 4, "y": 0, "z": 0 } } ] } } } ] } } ])");
+    ASSERT_EQ(out.scene.instances.size(), 1u);
+    EXPECT_EQ(out.scene.instances[0].name, "in");
+    EXPECT_EQ(glm::vec3(out.scene.instances[0].world[3]), glm::vec3(4, 0, 0));
+}
+
+TEST(CocosScene, OtherComponentsAreOneNoteAKind) {
+    SceneFolder folder;
+    folder.load(
+        R"([ { "__type__": "cc.SceneAsset", "scene": { "__type__": "cc.Scene", "_children": [ { "__type__": "cc.Node", "_components": [
+        { "__type__": "cc.ParticleSystem" }, { "__type__": "cc.ParticleSystem" }, { "__type__": "cc.Label" } ] } ] } } ])");
+    EXPECT_TRUE(contains(folder.notes, "left out: cc.ParticleSystem, 2 times")) << folder.notes;
+    EXPECT_TRUE(contains(folder.notes, "left out: cc.Label\n"));
+}
+
+TEST(CocosScene, WrongFilesAreErrors) {
+    SceneFolder folder;
+    EXPECT_TRUE(
+        contains(folder.errors(R"([ { "__type__": "cc.Material" } ])"), "this is no scene: its type is 'cc.Material'"));
+    EXPECT_TRUE(contains(folder.errors(R"([ { "__type__": "cc.SceneAsset", "scene": { "__id__": 9 } } ])"),
+                         "'scene' is object 9"));
+    EXPECT_TRUE(contains(folder.errors(R"([ { "__type__": "cc.SceneAsset", "scene": { "__id__": 1 } },
+        { "__type__": "cc.Scene", "_children": [ { "__id__": 1 } ] } ])"),
+                         "this node is one of its own children"));
+    EXPECT_TRUE(contains(folder.errors(withComponent(R"({ "__type__": "cc.Camera", "_fov": "wide" })")),
+                         "'_fov' must be a number, not a string"));
+    EXPECT_TRUE(contains(folder.errors(withComponent(R"({ "__type__": "cc.Camera" })", R"(, "_lpos": 5)")),
+                         "'_lpos' must be a vector or a colour"));
+    EXPECT_TRUE(contains(folder.errors(withComponent(renderer("40ff50d1-0000-4000-8000-000000f1736b", "[]"))),
+                         "of the mesh of 'thing'"));
+    EXPECT_TRUE(contains(folder.errors(withComponent(renderer(std::string(kPrimitivesUuid) + "@00000", "[]"))),
+                         "is none of the built-in meshes"));
+    EXPECT_TRUE(contains(folder.errors(withComponent(
+                             renderer(kSphere, R"([ { "__uuid__": "40ff50d1-0000-4000-8000-000000f1736b" } ])"))),
+                         "of the material of 'thing'"));
+    EXPECT_TRUE(contains(folder.errors(withComponent(renderer(kSphere, "[ 5 ]"))),
+                         "a material of 'thing' must be an asset or null"));
+    std::string deep = R"([ { "__type__": "cc.SceneAsset", "scene": { "__id__": 1 } })";
+    for (int i = 1; i < 400; ++i)
+        deep += R"(, { "__type__": "cc.Node", "_children": [ { "__id__": )" + std::to_string(i + 1) + " } ] }";
+    EXPECT_TRUE(
+        contains(folder.errors(deep + R"(, { "__type__": "cc.Node" } ])"), "nodes nested deeper than 256 levels"));
+}
+
+TEST(CocosScene, TwoOfEachChildIsBounded) {
+    SceneFolder folder;
+    std::string wide = R"([ { "__type__": "cc.SceneAsset", "scene": { "__id__": 1 } })";
+    for (int i = 1; i < 60; ++i) {
+        const std::string next = std::to_string(i + 1);
+        wide += R"(, { "__type__": "cc.Node", "_children": [ { "__id__": )" + next + R"( }, { "__id__": )" + next +
+                " } ] }";
+    }
+    EXPECT_TRUE(contains(folder.errors(wide + R"(, { "__type__": "cc.Node" } ])"), "more than 1000000 nodes"));
+}
+
+TEST(CocosShapes, HaveTheSizesThatCocosDocuments) {
+    struct Case {
+        const char *id, *name;
+        glm::vec3 half;
+    };
+    for (const Case& c : {Case{"a804a", "box", {0.5f, 0.5f, 0.5f}}, Case{"17020", "sphere", {0.5f, 0.5f, 0.5f}},
+                          Case{"801ec", "capsule", {0.5f, 1, 0.5f}}, Case{"8abdc", "cylinder", {0.5f, 1, 0.5f}},
+                          Case{"38fd2", "cone", {0.5f, 0.5f, 0.5f}}, Case{"40ece", "torus", {0.5f, 0.1f, 0.5f}},
+                          Case{"2e76e", "plane", {5, 0, 5}}, Case{"fc873", "quad", {0.5f, 0.5f, 0}}}) {
+        EXPECT_EQ(shapeName(c.id), c.name);
+        const auto mesh = makeShape(c.name);
+        ASSERT_TRUE(mesh) << c.name;
+        for (int k = 0; k < 3; ++k) {
+            EXPECT_NEAR(mesh->bounds.max[k], c.half[k], 0.01f) << c.name << k;
+            EXPECT_NEAR(mesh->bounds.min[k], -c.half[k], 0.01f) << c.name << k;
+        }
+        for (const Vertex& vertex : mesh->vertices) {
+            EXPECT_GE(vertex.uv0.x, 0) << c.name;
+            EXPECT_LE(vertex.uv0.y, 1) << c.name;
+        }
+    }
+    EXPECT_EQ(makeShape("quad")->vertices.front().normal, glm::vec3(0, 0, 1));
+    EXPECT_FALSE(makeShape("teapot"));
+    EXPECT_EQ(shapeName("00000"), "");
+}
+
+TEST(CocosTangents, PointWhereUGrows) {
+    Mesh mesh;
+    mesh.vertices = {{.position = {0, 0, 0}, .uv0 = {0, 0}},
+                     {.position = {0, 2, 0}, .uv0 = {1, 0}},
+                     {.position = {2, 0, 0}, .uv0 = {0, 1}}};
+    mesh.indices = {0, 1, 2};
+    addTangents(mesh);
+    EXPECT_TRUE(mesh.hasTangents);
+    EXPECT_NEAR(mesh.vertices[0].tangent.y, 1, 1e-6);
+    EXPECT_EQ(mesh.vertices[0].tangent.w, -1);  // u grows along y, v along x, seen from +z: mirrored
+    mesh.vertices[1].uv0 = {0, 0};
+    mesh.vertices[2].uv0 = {0, 0};
+    addTangents(mesh);
+    EXPECT_NEAR(glm::length(glm::vec3(mesh.vertices[0].tangent)), 1, 1e-6);
+}
+
+TEST(CocosStandard, GltfMaterialsUseTheWordsOfTheEditorsImporter) {
+    SceneMaterial material;
+    material.baseColor = {0.5f, 0.25f, 1, 0.5f};
+    material.metallic = 0.125f;
+    material.roughness = 0.75f;
+    material.emissive = {2, 0, 0};
+    material.normalMap = {.texture = 3, .texcoord = 1};
+    material.alphaMode = AlphaMode::Mask;
+    material.doubleSided = true;
+    EffectAsset standard;
+    standard.techniques.push_back({"opaque", {EffectPass{}, EffectPass{}}});
+    standard.techniques.push_back({"transparent", {EffectPass{}}});
+    const Mtl mtl = makeStandardMtl(material, standard);
+    EXPECT_EQ(mtl.technique, 0u);
+    ASSERT_EQ(mtl.passes.size(), 2u);
+    EXPECT_EQ(
+        mtl.passes[1].defines.toJson(-1),
+        R"({"USE_NORMAL_MAP":true,"NORMAL_UV":"v_uv1","HAS_SECOND_UV":true,"USE_ALPHA_TEST":true,"USE_TWOSIDE":true})");
+    EXPECT_EQ(mtl.passes[0].states.toJson(-1), R"({"rasterizerState":{"cullMode":0}})");
+    std::string values;
+    for (const MtlProperty& property : mtl.passes[0].properties)
+        values += property.name + "=" +
+                  (property.value.plain.isNull() ? property.value.asset.uuid : property.value.plain.toJson(-1)) + ";";
+    EXPECT_EQ(
+        values,
+        "mainColor=[1,1,1,0.5];albedoScale=[0.5,0.25,1];metallic=0.125;roughness=0.75;occlusion=1;normalStrenth=1;"
+        "emissive=[1,1,1,1];emissiveScale=[2,0,0];normalMap=scene:3;alphaThreshold=0.5;");
+    EXPECT_EQ(sceneTextureOf(mtl.passes[0].properties[8].value.asset), 3);
+    EXPECT_EQ(sceneTextureOf({.uuid = kPaint}), -1);
+    material.alphaMode = AlphaMode::Blend;
+    EXPECT_EQ(makeStandardMtl(material, standard).technique, 1u);
+}
+
+}  // namespace
+}  // namespace crevice::cocos
