@@ -138,7 +138,7 @@ Value SceneMaterials::useTexture(const AssetRef& texture, bool srgb) {
     } catch (const Error& error) {
         problems_.warning(texture.where,
                           fmt::format("texture '{}' is left out: {}", out.name, error.problems().front().message),
-                          "pictures must be PNG or EXR");
+                          "pictures must be PNG, JPEG, WebP or EXR");
         return {};
     }
     scene_.textures.push_back(std::move(out));
