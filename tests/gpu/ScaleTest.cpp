@@ -94,7 +94,7 @@ TEST_F(Scale, BigAndSmallMeshesStandSideBySide) {
         return renderer_->render(view);
     };
     const Image fine = draw(300), coarse = draw(3);
-    EXPECT_LE(differingPixels(fine, coarse), 52u) << "more than the rims: a hundredth";
+    EXPECT_LE(differingPixels(fine, coarse), 10u) << "more than a few pixels of the rim";
     EXPECT_GT(mean(fine), 80);
 }
 
@@ -162,7 +162,7 @@ TEST_F(Scale, LightsWithoutARangeAreLeftOutOnlyWhereTheyCannotBeSeen) {
     const Image culled = renderer_->render(view);
     load("deferred", {}, {{"LightingStage.defines.BRUTE_FORCE_LIGHTS", "true"}});
     EXPECT_LE(largestDifference(culled, renderer_->render(view)), 1);
-    EXPECT_GT(mean(culled), 65);
+    EXPECT_GT(mean(culled), 64.2) << "63.75 is black, with alpha 255";
 }
 
 TEST_F(Scale, ASceneThatIsNotKeptLooksTheSame) {
