@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-fs::path fixture() { return fs::path(__FILE__).parent_path().parent_path() / "cocos/reflection"; }
+fs::path fixture() { return fs::path(CREVICE_TEST_SOURCE_DIR) / "tests/cocos/reflection"; }
 
 Roots fixtureRoots() {
     Roots roots;
