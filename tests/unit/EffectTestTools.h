@@ -33,6 +33,8 @@ inline BindingMap contractBindings() {
                       {"CCSpotShadow", {0, 28}},
                       {"CCPunctualLights", {0, 30}},
                       {"CCLightGrid", {0, 31}},
+                      {"CCEnvironment", {0, 60}},
+                      {"cc_environmentBrdf", {0, 61}},
                       {"CCLocal", {2, 0}},
                       {"CCForwardLight", {2, 1}}};
     return map;
