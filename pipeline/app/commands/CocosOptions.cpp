@@ -41,7 +41,7 @@ std::vector<cocos::StageFacts> factsOf(const StageRegistry& registry) {
 
 }  // namespace
 
-void addCocosOptions(CLI::App& command, CocosOptions& options) {
+void addCocosProjectOptions(CLI::App& command, CocosProjectOptions& options) {
     command
         .add_option("--project", options.project, "Cocos Creator project; default the folder above a .rpp or .scene")
         ->type_name("DIR");
@@ -57,7 +57,7 @@ void addCocosOptions(CLI::App& command, CocosOptions& options) {
 bool isCocosPipeline(const std::string& nameOrPath) { return nameOrPath.ends_with(".rpp"); }
 bool isCocosScene(const std::string& nameOrPath) { return nameOrPath.ends_with(".scene"); }
 
-CocosProject::CocosProject(const CocosOptions& options, const std::string& file) : version_(options.version) {
+CocosProject::CocosProject(const CocosProjectOptions& options, const std::string& file) : version_(options.version) {
     roots_.project = checkFolder("--project", options.project);
     roots_.engine = checkFolder("--engine", options.engine);
     for (const std::string& folder : options.chunks) roots_.chunks.push_back(checkFolder("--chunks", folder));
@@ -98,7 +98,8 @@ cocos::ImportedPipeline CocosProject::importPipeline(const std::string& rpp, con
     return imported;
 }
 
-std::shared_ptr<CocosProject> openCocosProject(const CocosOptions& options, const std::vector<std::string>& files) {
+std::shared_ptr<CocosProject> openCocosProject(const CocosProjectOptions& options,
+                                               const std::vector<std::string>& files) {
     std::string first;
     for (const std::string& file : files) {
         if (first.empty() && (isCocosPipeline(file) || isCocosScene(file))) first = file;

@@ -16,11 +16,11 @@ class App;
 
 namespace crevice {
 
-struct CocosOptions {
+struct CocosProjectOptions {
     std::string project, engine, version;  ///< Empty = not given.
     std::vector<std::string> chunks;
 };
-void addCocosOptions(CLI::App& command, CocosOptions& options);
+void addCocosProjectOptions(CLI::App& command, CocosProjectOptions& options);
 
 /// "X.rpp"
 bool isCocosPipeline(const std::string& nameOrPath);
@@ -31,7 +31,7 @@ bool isCocosScene(const std::string& nameOrPath);
 /// `file`.
 class CocosProject {
 public:
-    CocosProject(const CocosOptions& options, const std::string& file);
+    CocosProject(const CocosProjectOptions& options, const std::string& file);
 
     const cocos::Roots& roots() const { return roots_; }
     /// All metas are read when first asked for; warnings about them go to `log`, once.
@@ -48,6 +48,7 @@ private:
 };
 
 /// Nothing when neither the options nor the files' endings speak of Cocos.
-std::shared_ptr<CocosProject> openCocosProject(const CocosOptions& options, const std::vector<std::string>& files);
+std::shared_ptr<CocosProject> openCocosProject(const CocosProjectOptions& options,
+                                               const std::vector<std::string>& files);
 
 }  // namespace crevice

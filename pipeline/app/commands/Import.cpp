@@ -21,7 +21,7 @@ constexpr const char* kExamples =
 
 struct ImportOptions {
     std::string rpp, out;
-    CocosOptions cocos;
+    CocosProjectOptions cocos;
     PluginOptions plugins;
     ConsoleOptions console;
 };
@@ -59,7 +59,7 @@ void addImportCommand(CLI::App& program, Action& action) {
     command->add_option("pipeline", options->rpp, "Cocos pipeline")->type_name("PIPELINE.rpp");
     command->add_option("-o,--out", options->out, "Document to write; without it, it is printed")
         ->type_name("OUT.pipeline.json");
-    addCocosOptions(*command, options->cocos);
+    addCocosProjectOptions(*command, options->cocos);
     addPluginOptions(*command, options->plugins);
     addConsoleOptions(*command, options->console);
     command->footer(kExamples);

@@ -45,7 +45,7 @@ void addPipelineOptions(CLI::App& command, PipelineOptions& options) {
         ->allow_extra_args(false);
     command.add_option("--seed", options.seed, "Sets 'seed' on every stage that has one")->type_name("N");
     addPluginOptions(command, options.plugins);
-    addCocosOptions(command, options.cocos);
+    addCocosProjectOptions(command, options.cocos);
 }
 
 StageClasses::StageClasses(const PluginOptions& options) {

@@ -32,7 +32,7 @@ struct PipelineOptions {
     std::vector<std::string> sets;     ///< STAGE.path=VALUE
     std::string seed;                  ///< Empty = not given.
     PluginOptions plugins;
-    CocosOptions cocos;
+    CocosProjectOptions cocos;
 };
 void addPipelineOptions(CLI::App& command, PipelineOptions& options);
 
