@@ -1,4 +1,7 @@
 // Checked access to glTF numbers: nothing is read before its whole range is known to lie inside its buffer.
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstring>
 
 #include <fmt/format.h>
@@ -12,75 +15,45 @@ namespace {
 // Bytes of one component, 0 for types that glTF 2.0 does not have.
 std::size_t componentSize(int type) {
     switch (type) {
-        case TINYGLTF_COMPONENT_TYPE_BYTE:
-        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
+        case kByte:
+        case kUByte:
             return 1;
-        case TINYGLTF_COMPONENT_TYPE_SHORT:
-        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
+        case kShort:
+        case kUShort:
             return 2;
-        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT:
-        case TINYGLTF_COMPONENT_TYPE_FLOAT:
+        case kUInt:
+        case kFloat:
             return 4;
         default:
             return 0;
     }
 }
 
-int componentCount(int type) {
-    switch (type) {
-        case TINYGLTF_TYPE_SCALAR:
-            return 1;
-        case TINYGLTF_TYPE_VEC2:
-            return 2;
-        case TINYGLTF_TYPE_VEC3:
-            return 3;
-        case TINYGLTF_TYPE_VEC4:
-        case TINYGLTF_TYPE_MAT2:
-            return 4;
-        case TINYGLTF_TYPE_MAT3:
-            return 9;
-        case TINYGLTF_TYPE_MAT4:
-            return 16;
-        default:
-            return 0;
-    }
-}
-
-/// Elements in memory, already checked; null = all zero.
+/// Elements in memory, already checked; null = all zero, or missing.
 struct Elements {
     const unsigned char* data = nullptr;
     std::size_t stride = 0;
+    bool missing = false;  ///< The buffer has no data.
 };
 
 // The range [offset, offset + (count - 1) * stride + size) of a buffer view, checked without overflow.
-Elements checkRange(const File& file, std::size_t accessor, std::string_view what, int view, std::size_t offset,
+Elements checkRange(const File& file, std::size_t accessor, std::string_view what, int viewIndex, std::size_t offset,
                     std::size_t count, std::size_t size, bool packed) {
-    const auto& model = file.model;
-    if (view < 0 || std::size_t(view) >= model.bufferViews.size())
-        file.fail("accessors", accessor,
-                  fmt::format("{} names bufferViews[{}], the file has {}", what, view, model.bufferViews.size()));
-    const tinygltf::BufferView& bufferView = model.bufferViews[view];
-    if (bufferView.buffer < 0 || std::size_t(bufferView.buffer) >= model.buffers.size())
-        file.fail("bufferViews", view,
-                  fmt::format("'buffer' is {}, the file has {} buffers", bufferView.buffer, model.buffers.size()));
-    const auto& bytes = model.buffers[bufferView.buffer].data;
-    if (bufferView.byteOffset > bytes.size() || bufferView.byteLength > bytes.size() - bufferView.byteOffset)
-        file.fail("bufferViews", view,
-                  fmt::format("'byteOffset' {} and 'byteLength' {} reach beyond buffers[{}] of {} bytes",
-                              bufferView.byteOffset, bufferView.byteLength, bufferView.buffer, bytes.size()));
-    const std::size_t stride = packed || bufferView.byteStride == 0 ? size : bufferView.byteStride;
+    const BufferViewPart& view = file.model.bufferViews[std::size_t(viewIndex)];
+    const std::size_t stride = packed || view.byteStride == 0 ? size : view.byteStride;
     if (stride < size)
         file.fail(
-            "bufferViews", view,
+            "bufferViews", std::size_t(viewIndex),
             fmt::format("'byteStride' {} is less than an element of accessors[{}], {} bytes", stride, accessor, size));
-    const std::size_t length = bufferView.byteLength;
+    const std::size_t length = view.byteLength;
     if (offset > length || size > length - offset || (count - 1) > (length - offset - size) / stride)
         file.fail(
             "accessors", accessor,
             fmt::format(
                 "{} of {} elements of {} bytes, {} apart, from byte {} reaches beyond bufferViews[{}] of {} bytes",
-                what, count, size, stride, offset, view, length));
-    return {bytes.data() + bufferView.byteOffset + offset, stride};
+                what, count, size, stride, offset, viewIndex, length));
+    if (view.bytes.empty()) return {nullptr, stride, true};
+    return {reinterpret_cast<const unsigned char*>(view.bytes.data()) + offset, stride};
 }
 
 template <class T>
@@ -93,21 +66,21 @@ T load(const unsigned char* bytes) {
 // glTF 2.0 specification, 3.6.2.2: f = max(c / 127, -1) and so on.
 float toFloat(const unsigned char* bytes, int type, bool normalized) {
     switch (type) {
-        case TINYGLTF_COMPONENT_TYPE_FLOAT:
+        case kFloat:
             return load<float>(bytes);
-        case TINYGLTF_COMPONENT_TYPE_BYTE: {
+        case kByte: {
             const float c = load<std::int8_t>(bytes);
             return normalized ? std::max(c / 127.0f, -1.0f) : c;
         }
-        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE: {
+        case kUByte: {
             const float c = load<std::uint8_t>(bytes);
             return normalized ? c / 255.0f : c;
         }
-        case TINYGLTF_COMPONENT_TYPE_SHORT: {
+        case kShort: {
             const float c = load<std::int16_t>(bytes);
             return normalized ? std::max(c / 32767.0f, -1.0f) : c;
         }
-        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT: {
+        case kUShort: {
             const float c = load<std::uint16_t>(bytes);
             return normalized ? c / 65535.0f : c;
         }
@@ -120,89 +93,105 @@ float toFloat(const unsigned char* bytes, int type, bool normalized) {
 
 std::uint32_t toInteger(const unsigned char* bytes, int type) {
     switch (type) {
-        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
+        case kUByte:
             return load<std::uint8_t>(bytes);
-        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
+        case kUShort:
             return load<std::uint16_t>(bytes);
         default:
             return load<std::uint32_t>(bytes);
     }
 }
 
-bool isUnsigned(int type) {
-    return type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE || type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT ||
-           type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT;
-}
+bool isUnsigned(int type) { return type == kUByte || type == kUShort || type == kUInt; }
 
 struct Layout {
     Elements base;
     Elements sparseIndices, sparseValues;
     std::size_t sparseCount = 0;
-    int components = 0;
     std::size_t componentBytes = 0;
+    std::size_t elementBytes = 0;
+    std::array<std::size_t, 16> offsets{};  ///< Of each component in an element.
 };
 
-void checkSparse(const File& file, std::size_t index, const tinygltf::Accessor& accessor, Layout& layout) {
-    const auto& sparse = accessor.sparse;
-    const std::size_t indexBytes = componentSize(sparse.indices.componentType);
-    if (sparse.count < 1 || std::size_t(sparse.count) > accessor.count)
+// Columns of matrices begin at multiples of 4 bytes: glTF 2.0 specification, 3.6.2.4.
+void layOutElement(const AccessorPart& accessor, Layout& layout) {
+    const std::size_t rows = std::size_t(accessor.rows), bytes = layout.componentBytes;
+    const std::size_t column = accessor.columns > 1 ? (rows * bytes + 3) / 4 * 4 : rows * bytes;
+    for (std::size_t i = 0; i < std::size_t(accessor.components()); ++i)
+        layout.offsets[i] = i / rows * column + i % rows * bytes;
+    layout.elementBytes = column * std::size_t(accessor.columns);
+}
+
+void checkSparse(const File& file, std::size_t index, const AccessorPart& accessor, Layout& layout) {
+    const SparsePart& sparse = *accessor.sparse;
+    const std::size_t indexBytes = componentSize(sparse.indicesType);
+    if (sparse.count > accessor.count)
         file.fail("accessors", index,
                   fmt::format("'sparse.count' is {}, allowed are 1 … {}", sparse.count, accessor.count));
-    if (!isUnsigned(sparse.indices.componentType))
-        file.fail(
-            "accessors", index,
-            fmt::format("'sparse.indices.componentType' {} is not an unsigned integer", sparse.indices.componentType));
-    if (sparse.indices.byteOffset < 0 || sparse.values.byteOffset < 0)
-        file.fail("accessors", index, "a 'byteOffset' of 'sparse' is negative");
+    if (!isUnsigned(sparse.indicesType))
+        file.fail("accessors", index,
+                  fmt::format("'sparse.indices.componentType' {} is not an unsigned integer", sparse.indicesType));
     layout.sparseCount = sparse.count;
-    layout.sparseIndices = checkRange(file, index, "'sparse.indices'", sparse.indices.bufferView,
-                                      sparse.indices.byteOffset, layout.sparseCount, indexBytes, true);
-    layout.sparseValues = checkRange(file, index, "'sparse.values'", sparse.values.bufferView, sparse.values.byteOffset,
-                                     layout.sparseCount, layout.componentBytes * layout.components, true);
+    layout.sparseIndices = checkRange(file, index, "'sparse.indices'", sparse.indicesView, sparse.indicesOffset,
+                                      layout.sparseCount, indexBytes, true);
+    layout.sparseValues = checkRange(file, index, "'sparse.values'", sparse.valuesView, sparse.valuesOffset,
+                                     layout.sparseCount, layout.elementBytes, true);
+    if (layout.sparseIndices.missing || layout.sparseValues.missing) return;
+    std::uint32_t before = 0;
     for (std::size_t i = 0; i < layout.sparseCount; ++i) {
-        const std::uint32_t target =
-            toInteger(layout.sparseIndices.data + i * indexBytes, sparse.indices.componentType);
+        const std::uint32_t target = toInteger(layout.sparseIndices.data + i * indexBytes, sparse.indicesType);
         if (target >= accessor.count)
             file.fail("accessors", index,
                       fmt::format("sparse index {} at {} is not below 'count' {}", target, i, accessor.count));
+        if (i > 0 && target <= before)
+            file.fail("accessors", index, fmt::format("sparse index {} at {} is not above the one before", target, i));
+        before = target;
     }
 }
 
+// Unknown types are left to those who want to read them.
+bool isKnown(const AccessorPart& accessor) { return accessor.rows > 0 && componentSize(accessor.componentType) > 0; }
+
 Layout layOut(const File& file, std::size_t index) {
-    const tinygltf::Accessor& accessor = file.model.accessors[index];
+    const AccessorPart& accessor = file.model.accessors[index];
+    if (!isKnown(accessor))
+        file.fail("accessors", index,
+                  fmt::format("'componentType' {} or 'type' is not one of glTF 2.0", accessor.componentType));
     Layout layout;
-    layout.components = componentCount(accessor.type);
     layout.componentBytes = componentSize(accessor.componentType);
-    if (layout.components == 0 || layout.componentBytes == 0)
-        file.fail("accessors", index, fmt::format("'componentType' {} is not one of glTF 2.0", accessor.componentType));
-    if (accessor.count < 1) file.fail("accessors", index, "'count' is 0");
-    if (accessor.count > 6 * file.options.limits.maxVertices)
-        file.fail(
-            "accessors", index,
-            fmt::format("'count' {} is beyond the limit of {}", accessor.count, 6 * file.options.limits.maxVertices));
-    // Columns of small-component matrices are padded to 4 bytes; nothing that is drawn uses them.
-    if (accessor.type >= TINYGLTF_TYPE_MAT2 && accessor.type <= TINYGLTF_TYPE_MAT4 && layout.componentBytes != 4)
-        return layout;
+    layOutElement(accessor, layout);
     if (accessor.bufferView >= 0)
         layout.base = checkRange(file, index, "the range", accessor.bufferView, accessor.byteOffset, accessor.count,
-                                 layout.componentBytes * layout.components, false);
-    if (accessor.sparse.isSparse) checkSparse(file, index, accessor, layout);
+                                 layout.elementBytes, false);
+    if (accessor.sparse) checkSparse(file, index, accessor, layout);
     return layout;
 }
 
 // Calls visit(element, component, bytes) for every stored component; sparse ones come last and overwrite.
 template <class Visit>
-void visitComponents(const tinygltf::Accessor& accessor, const Layout& layout, Visit visit) {
+void visitComponents(const AccessorPart& accessor, const Layout& layout, Visit visit) {
+    const int components = accessor.components();
     const auto visitElement = [&](std::size_t element, const unsigned char* bytes) {
-        for (int c = 0; c < layout.components; ++c) visit(element, c, bytes + c * layout.componentBytes);
+        for (int c = 0; c < components; ++c) visit(element, c, bytes + layout.offsets[std::size_t(c)]);
     };
     if (layout.base.data)
         for (std::size_t i = 0; i < accessor.count; ++i) visitElement(i, layout.base.data + i * layout.base.stride);
     for (std::size_t i = 0; i < layout.sparseCount; ++i) {
-        const int indexType = accessor.sparse.indices.componentType;
-        const std::uint32_t target = toInteger(layout.sparseIndices.data + i * layout.sparseIndices.stride, indexType);
+        const std::uint32_t target =
+            toInteger(layout.sparseIndices.data + i * layout.sparseIndices.stride, accessor.sparse->indicesType);
         visitElement(target, layout.sparseValues.data + i * layout.sparseValues.stride);
     }
+}
+
+Layout layOutData(const File& file, std::size_t index) {
+    const std::size_t limit = 6 * file.options.limits.maxVertices;
+    if (file.model.accessors[index].count > limit)
+        file.fail("accessors", index,
+                  fmt::format("'count' {} is beyond the limit of {}", file.model.accessors[index].count, limit));
+    const Layout layout = layOut(file, index);
+    if (layout.base.missing || layout.sparseIndices.missing || layout.sparseValues.missing)
+        file.fail("accessors", index, "its buffer has no data", "a buffer needs an 'uri' or a binary chunk");
+    return layout;
 }
 
 template <class T>
@@ -221,58 +210,147 @@ void widen(const Elements& from, std::vector<std::uint32_t>& to) {
 
 // Single integers without sparse ones: most of what indices are.
 void widen(const Elements& from, int type, std::vector<std::uint32_t>& to) {
-    if (type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE) widen<std::uint8_t>(from, to);
-    if (type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT) widen<std::uint16_t>(from, to);
-    if (type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT) widen<std::uint32_t>(from, to);
+    if (type == kUByte) widen<std::uint8_t>(from, to);
+    if (type == kUShort) widen<std::uint16_t>(from, to);
+    if (type == kUInt) widen<std::uint32_t>(from, to);
+}
+
+/// The smallest and largest number of each component.
+struct Range {
+    std::array<float, 16> low{}, high{};
+};
+
+// Throws when a number is not finite. `bytes`: floats, packed within an element.
+Range findRange(const File& file, std::size_t index, const unsigned char* bytes, std::size_t stride, std::size_t count,
+                std::size_t components) {
+    Range range;
+    std::memcpy(range.low.data(), bytes, components * sizeof(float));
+    range.high = range.low;
+    float bad = 0;  // 0 * infinity and 0 * NaN are NaN
+    for (std::size_t i = 0; i < count; ++i, bytes += stride)
+        for (std::size_t c = 0; c < components; ++c) {
+            const float value = load<float>(bytes + c * sizeof(float));
+            bad += 0 * value;
+            range.low[c] = std::min(range.low[c], value);
+            range.high[c] = std::max(range.high[c], value);
+        }
+    bytes -= count * stride;
+    for (std::size_t i = 0; bad != 0 && i < count; ++i, bytes += stride)
+        for (std::size_t c = 0; c < components; ++c)
+            if (!std::isfinite(load<float>(bytes + c * sizeof(float))))
+                file.fail("accessors", index, fmt::format("element {} is not a finite number", i));
+    return range;
+}
+
+// Declared bounds are the smallest and largest values stored: nothing that is drawn depends on them.
+void checkRangeDeclared(const File& file, std::size_t index, const Range& range, std::size_t components) {
+    const Value& item = file.item("accessors", index);
+    if (file.model.accessors[index].normalized) return;
+    for (const bool upper : {false, true}) {
+        const std::vector<float> declared = floatsIn(item, upper ? "max" : "min");
+        if (declared.empty()) continue;
+        if (declared.size() != components)
+            return file.fault("accessors", index, fmt::format("'min' or 'max' has not {} numbers", components));
+        for (std::size_t c = 0; c < components; ++c) {
+            const float actual = upper ? range.high[c] : range.low[c];
+            const float tolerance = 1e-6f * std::max(std::abs(actual), std::abs(declared[c])) + 1e-9f;
+            if (std::abs(actual - declared[c]) > tolerance)
+                return file.fault("accessors", index,
+                                  fmt::format("'{}' says {}, the data {}", upper ? "max" : "min", declared[c], actual));
+        }
+    }
+}
+
+void checkValues(const File& file, std::size_t index, const unsigned char* bytes, std::size_t stride) {
+    const AccessorPart& accessor = file.model.accessors[index];
+    const std::size_t components = std::size_t(accessor.components());
+    checkRangeDeclared(file, index, findRange(file, index, bytes, stride, accessor.count, components), components);
 }
 
 }  // namespace
 
-void checkAccessor(const File& file, std::size_t index) { layOut(file, index); }
+void checkAccessor(const File& file, std::size_t index) {
+    const AccessorPart& accessor = file.model.accessors[index];
+    if (!isKnown(accessor)) {
+        const bool type = componentSize(accessor.componentType) == 0;
+        return file.fault("accessors", index,
+                          type ? fmt::format("'componentType' {} is unknown", accessor.componentType)
+                               : std::string("'type' is unknown"));
+    }
+    const Layout layout = layOut(file, index);
+    if (accessor.normalized && (accessor.componentType == kFloat || accessor.componentType == kUInt))
+        file.fault("accessors", index, "floats and 32-bit integers cannot be 'normalized'");
+    const std::size_t view =
+        accessor.bufferView >= 0 ? file.model.bufferViews[std::size_t(accessor.bufferView)].byteOffset : 0;
+    if (accessor.byteOffset % layout.componentBytes || (view + accessor.byteOffset) % layout.componentBytes)
+        file.fault("accessors", index,
+                   fmt::format("it begins at byte {}, not at a multiple of {}", view + accessor.byteOffset,
+                               layout.componentBytes));
+    if (accessor.bufferView < 0 && accessor.byteOffset > 0)
+        file.fault("accessors", index, "'byteOffset' needs a 'bufferView'");
+}
 
 Floats readFloats(const File& file, int index) {
-    const tinygltf::Accessor& accessor = file.model.accessors[index];
-    const Layout layout = layOut(file, index);
+    const AccessorPart& accessor = file.model.accessors[std::size_t(index)];
+    const Layout layout = layOutData(file, std::size_t(index));
     Floats floats;
-    floats.components = layout.components;
-    floats.values.assign(accessor.count * layout.components, 0.0f);
+    floats.components = accessor.components();
+    const std::size_t components = std::size_t(floats.components);
+    floats.values.assign(accessor.count * components, 0.0f);
     visitComponents(accessor, layout, [&](std::size_t element, int component, const unsigned char* bytes) {
-        floats.values[element * layout.components + component] =
+        floats.values[element * components + std::size_t(component)] =
             toFloat(bytes, accessor.componentType, accessor.normalized);
     });
+    checkValues(file, std::size_t(index), reinterpret_cast<const unsigned char*>(floats.values.data()),
+                components * sizeof(float));
     return floats;
 }
 
 FloatStream readFloatStream(const File& file, int index) {
-    const tinygltf::Accessor& accessor = file.model.accessors[index];
-    const Layout layout = layOut(file, index);
+    const AccessorPart& accessor = file.model.accessors[std::size_t(index)];
+    const Layout layout = layOutData(file, std::size_t(index));
     FloatStream stream;
-    stream.components = layout.components;
+    stream.components = accessor.components();
     stream.count = accessor.count;
-    if (accessor.componentType == TINYGLTF_COMPONENT_TYPE_FLOAT && layout.base.data && layout.sparseCount == 0) {
+    if (accessor.componentType == kFloat && accessor.columns == 1 && layout.base.data && layout.sparseCount == 0) {
         stream.data_ = layout.base.data;
         stream.stride_ = layout.base.stride;
+        checkValues(file, std::size_t(index), stream.data_, stream.stride_);
         return stream;
     }
-    stream.converted_ = readFloats(file, index).values;
-    stream.data_ = reinterpret_cast<const unsigned char*>(stream.converted_.data());
-    stream.stride_ = layout.components * sizeof(float);
+    stream.own_ = readFloats(file, index).values;
+    stream.useOwn();
     return stream;
 }
 
+void FloatStream::useOwn() {
+    data_ = reinterpret_cast<const unsigned char*>(own_.data());
+    stride_ = std::size_t(components) * sizeof(float);
+}
+
+std::vector<float>& FloatStream::edit() {
+    if (!own_.empty() || components == 0) return own_;
+    const std::size_t bytes = std::size_t(components) * sizeof(float);
+    own_.resize(count * std::size_t(components));
+    for (std::size_t i = 0; i < count; ++i) std::memcpy(&own_[i * std::size_t(components)], data_ + i * stride_, bytes);
+    useOwn();
+    return own_;
+}
+
 std::vector<std::uint32_t> readIntegers(const File& file, int index) {
-    const tinygltf::Accessor& accessor = file.model.accessors[index];
-    const Layout layout = layOut(file, index);
+    const AccessorPart& accessor = file.model.accessors[std::size_t(index)];
+    const Layout layout = layOutData(file, std::size_t(index));
     if (!isUnsigned(accessor.componentType))
-        file.fail("accessors", index,
+        file.fail("accessors", std::size_t(index),
                   fmt::format("'componentType' {} is not an unsigned integer", accessor.componentType));
-    std::vector<std::uint32_t> integers(accessor.count * layout.components, 0u);
-    if (layout.base.data && layout.sparseCount == 0 && layout.components == 1) {
+    const std::size_t components = std::size_t(accessor.components());
+    std::vector<std::uint32_t> integers(accessor.count * components, 0u);
+    if (layout.base.data && layout.sparseCount == 0 && components == 1) {
         widen(layout.base, accessor.componentType, integers);
         return integers;
     }
     visitComponents(accessor, layout, [&](std::size_t element, int component, const unsigned char* bytes) {
-        integers[element * layout.components + component] = toInteger(bytes, accessor.componentType);
+        integers[element * components + std::size_t(component)] = toInteger(bytes, accessor.componentType);
     });
     return integers;
 }

@@ -5,16 +5,29 @@
 
 namespace crevice {
 
+namespace {
+
+// A white normal map would turn every surface: without a picture the surface is as smooth as its mesh.
+void dropBrokenNormalMaps(const std::set<int>& broken, Scene& scene) {
+    for (SceneMaterial& material : scene.materials)
+        if (broken.contains(material.normalMap.texture)) material.normalMap = {};
+}
+
+}  // namespace
+
 Scene loadGltf(const std::filesystem::path& path, const LoadOptions& options) {
     const gltf::File file = gltf::open(path, options);
     Scene scene;
     scene.name = path.stem().string();
 
     gltf::Images images(file);
-    scene.materials = gltf::readMaterials(file, images);
-    gltf::Meshes meshes(file, scene.meshes);
+    const gltf::Materials materials = gltf::readMaterials(file, images);
+    scene.materials = materials.scene;
+    gltf::Meshes meshes(file, materials, scene.meshes);
     gltf::readNodes(file, meshes, scene);
     scene.textures = images.decode();
+    dropBrokenNormalMaps(images.broken(), scene);
+    gltf::convertSpecularGlossiness(materials.toConvert, scene);
     return scene;
 }
 

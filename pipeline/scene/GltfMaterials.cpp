@@ -10,72 +10,149 @@ namespace crevice::gltf {
 
 namespace {
 
-template <class Info>
-TextureRef readTexture(const File& file, Images& images, std::size_t material, const char* member, const Info& info,
-                       bool srgb) {
-    if (info.index < 0) return {};
-    const std::string user = fmt::format("materials[{}].{}", material, member);
-    TextureRef ref{.texture = images.use(info.index, srgb, user), .texcoord = info.texCoord};
-    if (ref.texcoord < 0 || ref.texcoord > 1) {
-        file.warn("materials", material,
-                  fmt::format("'{}.texCoord' is {}; only 0 and 1 are read, 0 is taken", member, info.texCoord));
-        ref.texcoord = 0;
+/// Reads one material. Texture coordinates are numbered by stream: the first two sets that its textures read.
+class Reader {
+public:
+    Reader(const File& file, Images& images, std::size_t index)
+        : file_(file), images_(images), index_(index), from_(file.item("materials", index)) {}
+
+    SceneMaterial read(std::vector<SpecularGlossiness>& toConvert) {
+        to_.name = textOr(from_, "name", fmt::format("material {}", index_));
+        if (to_.name.empty()) to_.name = fmt::format("material {}", index_);
+        to_.doubleSided = flagOr(from_, "doubleSided");
+        to_.alphaCutoff = float(numberOr(from_, "alphaCutoff", 0.5));
+        readAlphaMode();
+        collectSets(from_);
+        orderSets();
+        const bool unlit = extensionOf(from_, "KHR_materials_unlit") != nullptr;
+        const Value* glossiness = unlit ? nullptr : extensionOf(from_, "KHR_materials_pbrSpecularGlossiness");
+        readMetallicRoughness(unlit);
+        if (glossiness && !hasOwnMetallicRoughness()) toConvert.push_back(readGlossiness(*glossiness));
+        if (unlit)
+            to_.unlit = true;  // every other property is for lit materials
+        else
+            readLit();
+        return to_;
     }
-    return ref;
-}
 
-float number(double value, double min, double max) { return float(std::clamp(value, min, max)); }
+    const std::vector<int>& sets() const { return sets_; }
 
-AlphaMode alphaMode(const File& file, std::size_t index, const std::string& name) {
-    if (name == "OPAQUE") return AlphaMode::Opaque;
-    if (name == "MASK") return AlphaMode::Mask;
-    if (name == "BLEND") return AlphaMode::Blend;
-    file.fail("materials", index, fmt::format("'alphaMode' is '{}'; it may be OPAQUE, MASK or BLEND", name));
-}
+private:
+    static int setOf(const Value& info) {
+        const Value* transform = extensionOf(info, "KHR_texture_transform");
+        return transform ? intOr(*transform, "texCoord", intOr(info, "texCoord", 0)) : intOr(info, "texCoord", 0);
+    }
 
-float emissiveStrength(const tinygltf::Material& material) {
-    const auto extension = material.extensions.find("KHR_materials_emissive_strength");
-    if (extension == material.extensions.end() || !extension->second.Has("emissiveStrength")) return 1;
-    return number(extension->second.Get("emissiveStrength").GetNumberAsDouble(), 0, 1e9);
-}
+    // All textures of the material, wherever they stand in it.
+    void collectSets(const Value& object) {
+        for (const Member& member : object.members()) {
+            if (!member.value.isObject() || member.key == "extras") continue;
+            if (member.key.ends_with("Texture"))
+                sets_.push_back(setOf(member.value));
+            else
+                collectSets(member.value);
+        }
+    }
 
-SceneMaterial readMaterial(const File& file, Images& images, std::size_t index) {
-    const tinygltf::Material& from = file.model.materials[index];
-    const tinygltf::PbrMetallicRoughness& pbr = from.pbrMetallicRoughness;
-    SceneMaterial to;
-    to.name = from.name.empty() ? fmt::format("material {}", index) : from.name;
-    for (std::size_t i = 0; i < 4 && pbr.baseColorFactor.size() == 4; ++i)
-        to.baseColor[int(i)] = number(pbr.baseColorFactor[i], 0, 1);
-    to.metallic = number(pbr.metallicFactor, 0, 1);
-    to.roughness = number(pbr.roughnessFactor, 0, 1);
-    for (std::size_t i = 0; i < 3 && from.emissiveFactor.size() == 3; ++i)
-        to.emissive[int(i)] = number(from.emissiveFactor[i], 0, 1) * emissiveStrength(from);
-    to.normalScale = number(from.normalTexture.scale, -1e3, 1e3);
-    to.occlusionStrength = number(from.occlusionTexture.strength, 0, 1);
+    void orderSets() {
+        std::sort(sets_.begin(), sets_.end());
+        sets_.erase(std::unique(sets_.begin(), sets_.end()), sets_.end());
+        if (sets_.empty() || sets_.back() <= 1) sets_ = {0, 1};
+        if (sets_.size() > 2) {
+            file_.warn("materials", index_,
+                       fmt::format("it reads {} sets of texture coordinates; only {} and {} are kept apart",
+                                   sets_.size(), sets_[0], sets_[1]));
+            sets_.resize(2);
+        }
+    }
 
-    to.baseColorMap = readTexture(file, images, index, "baseColorTexture", pbr.baseColorTexture, true);
-    to.metallicRoughnessMap =
-        readTexture(file, images, index, "metallicRoughnessTexture", pbr.metallicRoughnessTexture, false);
-    to.normalMap = readTexture(file, images, index, "normalTexture", from.normalTexture, false);
-    to.occlusionMap = readTexture(file, images, index, "occlusionTexture", from.occlusionTexture, false);
-    to.emissiveMap = readTexture(file, images, index, "emissiveTexture", from.emissiveTexture, true);
+    TextureRef readTexture(const Value* object, const char* key, bool srgb) {
+        const Value* info = objectIn(object, key);
+        if (!info) return {};
+        TextureRef ref{.texture =
+                           images_.use(intOr(*info, "index"), srgb, fmt::format("materials[{}].{}", index_, key))};
+        ref.texcoord = sets_.size() > 1 && setOf(*info) == sets_[1] ? 1 : 0;
+        if (const Value* transform = extensionOf(*info, "KHR_texture_transform")) {
+            const auto pair = [&](const char* name, glm::vec2& to) {
+                if (const auto v = floatsIn(*transform, name); v.size() == 2) to = {v[0], v[1]};
+            };
+            pair("offset", ref.transform.offset);
+            pair("scale", ref.transform.scale);
+            ref.transform.rotation = float(numberOr(*transform, "rotation", 0));
+        }
+        return ref;
+    }
 
-    to.alphaMode = alphaMode(file, index, from.alphaMode);
-    to.alphaCutoff = number(from.alphaCutoff, 0, 1e9);
-    to.doubleSided = from.doubleSided;
-    return to;
-}
+    void readAlphaMode() {
+        const std::string mode = textOr(from_, "alphaMode", "OPAQUE");
+        if (mode == "MASK") to_.alphaMode = AlphaMode::Mask;
+        if (mode == "BLEND") to_.alphaMode = AlphaMode::Blend;
+        if (mode != "MASK" && from_.find("alphaCutoff"))
+            file_.note(fmt::format("materials[{}]: 'alphaCutoff' counts in mode MASK only", index_));
+    }
+
+    void readMetallicRoughness(bool unlit) {
+        const Value none = Value::makeObject();
+        const Value* pbr = objectIn(&from_, "pbrMetallicRoughness");
+        if (!pbr) pbr = &none;
+        if (const auto c = floatsIn(*pbr, "baseColorFactor"); c.size() == 4) to_.baseColor = {c[0], c[1], c[2], c[3]};
+        to_.baseColorMap = readTexture(pbr, "baseColorTexture", true);
+        if (unlit) return;
+        to_.metallic = float(numberOr(*pbr, "metallicFactor", 1));
+        to_.roughness = float(numberOr(*pbr, "roughnessFactor", 1));
+        to_.metallicRoughnessMap = readTexture(pbr, "metallicRoughnessTexture", false);
+    }
+
+    void readLit() {
+        double strength = 1;
+        if (const Value* extension = extensionOf(from_, "KHR_materials_emissive_strength"))
+            strength = std::min(numberOr(*extension, "emissiveStrength", 1), 1e6);
+        if (const auto c = floatsIn(from_, "emissiveFactor"); c.size() == 3)
+            to_.emissive = glm::vec3(c[0], c[1], c[2]) * float(strength);
+        to_.normalMap = readTexture(&from_, "normalTexture", false);
+        to_.occlusionMap = readTexture(&from_, "occlusionTexture", false);
+        to_.emissiveMap = readTexture(&from_, "emissiveTexture", true);
+        if (const Value* info = objectIn(&from_, "normalTexture"))
+            to_.normalScale = float(std::clamp(numberOr(*info, "scale", 1), -10.0, 10.0));
+        if (const Value* info = objectIn(&from_, "occlusionTexture"))
+            to_.occlusionStrength = float(numberOr(*info, "strength", 1));
+    }
+
+    // A file with both was made for either: its own metallic-roughness is better than a conversion.
+    bool hasOwnMetallicRoughness() const {
+        const Value* pbr = objectIn(&from_, "pbrMetallicRoughness");
+        return pbr &&
+               (pbr->find("metallicRoughnessTexture") || pbr->find("metallicFactor") || pbr->find("roughnessFactor"));
+    }
+
+    SpecularGlossiness readGlossiness(const Value& from) {
+        SpecularGlossiness to{.material = index_};
+        if (const auto c = floatsIn(from, "diffuseFactor"); c.size() == 4) to.diffuse = {c[0], c[1], c[2], c[3]};
+        if (const auto c = floatsIn(from, "specularFactor"); c.size() == 3) to.specular = {c[0], c[1], c[2]};
+        to.glossiness = float(numberOr(from, "glossinessFactor", 1));
+        to.diffuseMap = readTexture(&from, "diffuseTexture", true);
+        to.specularGlossinessMap = readTexture(&from, "specularGlossinessTexture", true);
+        return to;
+    }
+
+    const File& file_;
+    Images& images_;
+    std::size_t index_;
+    const Value& from_;
+    SceneMaterial to_{};
+    std::vector<int> sets_;
+};
 
 }  // namespace
 
-std::vector<SceneMaterial> readMaterials(const File& file, Images& images) {
-    std::vector<SceneMaterial> materials;
-    bool unlit = false;
-    for (std::size_t i = 0; i < file.model.materials.size(); ++i) {
-        materials.push_back(readMaterial(file, images, i));
-        unlit = unlit || file.model.materials[i].extensions.contains("KHR_materials_unlit");
+Materials readMaterials(const File& file, Images& images) {
+    Materials materials;
+    const std::size_t count = listIn(file.json, "materials").size();
+    for (std::size_t i = 0; i < count; ++i) {
+        Reader reader(file, images, i);
+        materials.scene.push_back(reader.read(materials.toConvert));
+        materials.texcoords.push_back(reader.sets());
     }
-    if (unlit) file.note("materials with KHR_materials_unlit are drawn lit");
     return materials;
 }
 

@@ -1,4 +1,4 @@
-// glTF primitives as indexed triangle lists with one vertex layout.
+// glTF primitives as indexed points, lines or triangles with one vertex layout.
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -6,60 +6,96 @@
 #include <fmt/format.h>
 
 #include "scene/GltfParts.h"
-#include "scene/Primitives.h"
 
 namespace crevice::gltf {
 
 namespace {
 
-/// The accessors of one primitive, read.
-struct Attributes {
-    FloatStream position, normal, tangent, uv0, uv1, color, joints, weights;
+/// Types that an attribute may have: components of an element, and of numbers " f" and normalised or plain integers.
+struct AttributeRule {
+    const char* name;
+    int least, most;
 };
+constexpr AttributeRule kAttributeRules[] = {{"POSITION", 3, 3}, {"NORMAL", 3, 3}, {"TANGENT", 4, 4},
+                                             {"TEXCOORD", 2, 2}, {"COLOR", 3, 4},  {"JOINTS", 4, 4},
+                                             {"WEIGHTS", 4, 4}};
 
-constexpr int kAnyCount = 0;
-
-// An attribute that may be absent. All of a primitive have the count of POSITION.
-FloatStream readAttribute(const File& file, int mesh, const tinygltf::Primitive& primitive, const char* name,
-                          int components, std::size_t count) {
+// An attribute that may be absent: -1. All of a primitive have the count of POSITION.
+int findAttribute(const File& file, int mesh, const PrimitivePart& primitive, const std::string& name,
+                  std::size_t count) {
     const auto entry = primitive.attributes.find(name);
-    if (entry == primitive.attributes.end()) return {};
-    if (entry->second < 0 || std::size_t(entry->second) >= file.model.accessors.size())
-        file.fail(
-            "meshes", mesh,
-            fmt::format("'{}' names accessors[{}], the file has {}", name, entry->second, file.model.accessors.size()));
-    if (count && file.model.accessors[entry->second].count != count)
-        file.fail("accessors", entry->second,
-                  fmt::format("'count' is {}, but POSITION of meshes[{}] has {}",
-                              file.model.accessors[entry->second].count, mesh, count));
-    FloatStream floats = readFloatStream(file, entry->second);
-    const bool fits =
-        components == kAnyCount ? floats.components == 3 || floats.components == 4 : floats.components == components;
-    if (!fits)
-        file.fail("accessors", entry->second,
-                  fmt::format("'type' does not fit {} of meshes[{}]: {} components", name, mesh, floats.components));
-    return floats;
+    if (entry == primitive.attributes.end()) return -1;
+    const std::size_t index = std::size_t(entry->second);
+    const AccessorPart& accessor = file.model.accessors[index];
+    if (count && accessor.count != count)
+        file.fail("accessors", index,
+                  fmt::format("'count' is {}, but POSITION of meshes[{}] has {}", accessor.count, mesh, count));
+    for (const AttributeRule& rule : kAttributeRules)
+        if (name.starts_with(rule.name) &&
+            (accessor.columns != 1 || accessor.rows < rule.least || accessor.rows > rule.most))
+            file.fail(
+                "accessors", index,
+                fmt::format("'type' does not fit {} of meshes[{}]: {} components", name, mesh, accessor.components()));
+    return entry->second;
 }
 
-// glTF 2.0 specification, 3.7.2.1: how strips and fans become triangles.
-std::vector<std::uint32_t> toTriangleList(int mode, std::vector<std::uint32_t> indices) {
-    if (mode == TINYGLTF_MODE_TRIANGLES) {
-        indices.resize(indices.size() / 3 * 3);
+FloatStream readAttribute(const File& file, int mesh, const PrimitivePart& primitive, const std::string& name,
+                          std::size_t count) {
+    const int accessor = findAttribute(file, mesh, primitive, name, count);
+    return accessor < 0 ? FloatStream{} : readFloatStream(file, accessor);
+}
+
+void readJoints(const File& file, int mesh, const PrimitivePart& primitive, std::size_t count, Attributes& to) {
+    for (int set = 0;; ++set) {
+        const int joints = findAttribute(file, mesh, primitive, fmt::format("JOINTS_{}", set), count);
+        const int weights = findAttribute(file, mesh, primitive, fmt::format("WEIGHTS_{}", set), count);
+        if (joints < 0 || weights < 0) return;
+        to.joints.push_back(readIntegers(file, joints));
+        to.weights.push_back(readFloatStream(file, weights));
+    }
+}
+
+Attributes readAttributes(const File& file, int mesh, const PrimitivePart& primitive, std::span<const int> sets,
+                          bool skinned) {
+    Attributes to;
+    to.position = readAttribute(file, mesh, primitive, "POSITION", 0);
+    const std::size_t count = to.position.count;
+    to.normal = readAttribute(file, mesh, primitive, "NORMAL", count);
+    // Without normals tangents do not count: glTF 2.0 specification, 3.7.2.1.
+    if (to.normal.components) to.tangent = readAttribute(file, mesh, primitive, "TANGENT", count);
+    to.uv0 = readAttribute(file, mesh, primitive, fmt::format("TEXCOORD_{}", sets[0]), count);
+    if (sets.size() > 1) to.uv1 = readAttribute(file, mesh, primitive, fmt::format("TEXCOORD_{}", sets[1]), count);
+    to.color = readAttribute(file, mesh, primitive, "COLOR_0", count);
+    if (skinned) readJoints(file, mesh, primitive, count, to);
+    return to;
+}
+
+MeshTopology topologyOf(int mode) {
+    return mode == kPoints ? MeshTopology::Points : mode < kTriangles ? MeshTopology::Lines : MeshTopology::Triangles;
+}
+
+// glTF 2.0 specification, 3.7.2.1: how strips, loops and fans become lists. What is left over is dropped.
+std::vector<std::uint32_t> toList(int mode, std::vector<std::uint32_t> indices) {
+    const std::size_t count = indices.size();
+    if (mode == kPoints) return indices;
+    if (mode == kLines || mode == kTriangles) {
+        const std::size_t group = mode == kLines ? 2 : 3;
+        indices.resize(count / group * group);
         return indices;
     }
     std::vector<std::uint32_t> list;
-    for (std::size_t i = 0; i + 2 < indices.size(); ++i) {
-        if (mode == TINYGLTF_MODE_TRIANGLE_STRIP)
+    if (mode == kLineStrip || mode == kLineLoop) {
+        for (std::size_t i = 0; i + 1 < count; ++i) list.insert(list.end(), {indices[i], indices[i + 1]});
+        if (mode == kLineLoop && count > 1) list.insert(list.end(), {indices.back(), indices.front()});
+        return list;
+    }
+    for (std::size_t i = 0; i + 2 < count; ++i) {
+        if (mode == kTriangleStrip)
             list.insert(list.end(), {indices[i], indices[i + 1 + i % 2], indices[i + 2 - i % 2]});
         else
             list.insert(list.end(), {indices[i + 1], indices[i + 2], indices[0]});
     }
     return list;
-}
-
-glm::vec3 unitOr(const glm::vec3& vector, const glm::vec3& otherwise) {
-    const float length = glm::length(vector);
-    return length > 0 && std::isfinite(length) ? vector / length : otherwise;
 }
 
 Vertex makeVertex(const Attributes& from, std::size_t i) {
@@ -75,29 +111,6 @@ Vertex makeVertex(const Attributes& from, std::size_t i) {
     if (from.color.components == 3) vertex.color = glm::vec4(from.color.at<3>(i), 1);
     if (from.color.components == 4) vertex.color = from.color.at<4>(i);
     return vertex;
-}
-
-// Linear blend skinning, glTF 2.0 specification, 3.7.3.3: done once, in the pose of the file.
-void skin(const File& file, int mesh, const Attributes& from, const std::vector<glm::mat4>& joints, std::size_t i,
-          Vertex& vertex) {
-    glm::mat4 blend(0);
-    float total = 0;
-    const glm::vec4 weights = from.weights.at<4>(i), indices = from.joints.at<4>(i);
-    for (int k = 0; k < 4; ++k) {
-        const float weight = weights[k];
-        const auto joint = static_cast<std::size_t>(indices[k]);
-        if (weight == 0) continue;
-        if (joint >= joints.size())
-            file.fail("meshes", mesh, fmt::format("JOINTS_0 names joint {}, the skin has {}", joint, joints.size()));
-        blend += weight * joints[joint];
-        total += weight;
-    }
-    if (total <= 0) return;
-    blend /= total;
-    vertex.position = glm::vec3(blend * glm::vec4(vertex.position, 1));
-    vertex.normal = unitOr(glm::mat3(blend) * vertex.normal, vertex.normal);
-    vertex.tangent =
-        glm::vec4(unitOr(glm::mat3(blend) * glm::vec3(vertex.tangent), glm::vec3(vertex.tangent)), vertex.tangent.w);
 }
 
 // Without normals glTF asks for flat ones: every triangle gets its own three vertices.
@@ -119,13 +132,17 @@ void makeFlat(Mesh& mesh) {
     std::iota(mesh.indices.begin(), mesh.indices.end(), 0u);
 }
 
-[[noreturn]] void failPosition(const File& file, int mesh, std::size_t vertex) {
-    file.fail("meshes", mesh, fmt::format("POSITION of vertex {} is not a finite number", vertex));
+// Morphs and skins may leave what floats can hold.
+void addToBounds(const File& file, int mesh, Mesh& to) {
+    for (std::size_t i = 0; i < to.vertices.size(); ++i) {
+        const glm::vec3& p = to.vertices[i].position;
+        if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z))
+            file.fail("meshes", std::size_t(mesh), fmt::format("the place of vertex {} is not a finite number", i));
+        to.bounds.add(p);
+    }
 }
 
-bool isFinite(const glm::vec3& p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); }
-
-std::vector<std::uint32_t> readIndices(const File& file, int mesh, const tinygltf::Primitive& primitive,
+std::vector<std::uint32_t> readIndices(const File& file, int mesh, const PrimitivePart& primitive,
                                        std::size_t vertexCount) {
     std::vector<std::uint32_t> indices;
     if (primitive.indices < 0) {
@@ -133,21 +150,24 @@ std::vector<std::uint32_t> readIndices(const File& file, int mesh, const tinyglt
         std::iota(indices.begin(), indices.end(), 0u);
         return indices;
     }
-    if (std::size_t(primitive.indices) >= file.model.accessors.size())
-        file.fail("meshes", mesh,
-                  fmt::format("'indices' names accessors[{}], the file has {}", primitive.indices,
-                              file.model.accessors.size()));
-    if (file.model.accessors[primitive.indices].type != TINYGLTF_TYPE_SCALAR)
-        file.fail("accessors", primitive.indices, "'type' of indices is not SCALAR");
+    const std::size_t accessor = std::size_t(primitive.indices);
+    if (file.model.accessors[accessor].components() != 1)
+        file.fail("accessors", accessor, "'type' of indices is not SCALAR");
     indices = readIntegers(file, primitive.indices);
     std::uint32_t largest = 0;
     for (const std::uint32_t index : indices) largest = std::max(largest, index);
     for (std::size_t i = 0; largest >= vertexCount && i < indices.size(); ++i)
         if (indices[i] >= vertexCount)
-            file.fail("accessors", primitive.indices,
+            file.fail("accessors", accessor,
                       fmt::format("index {} at {} is not below the {} vertices of meshes[{}]", indices[i], i,
                                   vertexCount, mesh));
     return indices;
+}
+
+std::string nameOf(const MeshPart& mesh, int index, std::size_t primitive) {
+    std::string name = mesh.name.empty() ? fmt::format("mesh {}", index) : mesh.name;
+    if (mesh.primitives.size() > 1) name += fmt::format("/{}", primitive);
+    return name;
 }
 
 }  // namespace
@@ -157,76 +177,53 @@ void Meshes::countVertices(std::size_t vertices, std::size_t indices, int mesh) 
     indexCount_ += indices;
     const std::size_t limit = file_.options.limits.maxVertices;
     if (vertexCount_ > limit || indexCount_ > 6 * limit)
-        file_.fail("meshes", mesh, fmt::format("the scene has more than {} vertices", limit));
+        file_.fail("meshes", std::size_t(mesh), fmt::format("the scene has more than {} vertices", limit));
 }
 
-std::optional<Mesh> Meshes::readPrimitive(int meshIndex, std::size_t index, const std::vector<glm::mat4>& joints) {
-    const tinygltf::Mesh& from = file_.model.meshes[meshIndex];
-    const tinygltf::Primitive& primitive = from.primitives[index];
-    if (primitive.mode < TINYGLTF_MODE_POINTS || primitive.mode > TINYGLTF_MODE_TRIANGLE_FAN)
-        file_.fail("meshes", meshIndex, fmt::format("'mode' {} of a primitive is not 0 … 6", primitive.mode));
-    if (primitive.mode < TINYGLTF_MODE_TRIANGLES) {
-        if (!notedLines_) file_.note("points and lines are not drawn");
-        notedLines_ = true;
-        return std::nullopt;
-    }
-    if (!primitive.targets.empty() && !notedMorph_) {
-        file_.note("morph targets are not read: meshes are shown in their base shape");
-        notedMorph_ = true;
-    }
+std::optional<Mesh> Meshes::readPrimitive(int meshIndex, std::size_t index, const Deformation& deformation,
+                                          Part& part) {
+    const MeshPart& from = file_.model.meshes[std::size_t(meshIndex)];
+    const PrimitivePart& primitive = from.primitives[index];
+    static constexpr int kFirstSets[] = {0, 1};
+    const std::span<const int> sets = primitive.material < 0 ? std::span<const int>(kFirstSets)
+                                                             : materials_.texcoords[std::size_t(primitive.material)];
 
-    const auto read = [&](const char* name, int components, std::size_t count) {
-        return readAttribute(file_, meshIndex, primitive, name, components, count);
-    };
-    Attributes attributes;
-    attributes.position = read("POSITION", 3, 0);
-    const std::size_t count = attributes.position.count;
-    if (count == 0) return std::nullopt;  // legal, and nothing to draw
+    const auto position = primitive.attributes.find("POSITION");
+    if (position == primitive.attributes.end()) return std::nullopt;  // legal, and nothing to draw
+    const std::size_t count = file_.model.accessors[std::size_t(position->second)].count;
     countVertices(count, 0, meshIndex);
-    attributes.normal = read("NORMAL", 3, count);
-    if (attributes.normal.components) attributes.tangent = read("TANGENT", 4, count);
-    attributes.uv0 = read("TEXCOORD_0", 2, count);
-    attributes.uv1 = read("TEXCOORD_1", 2, count);
-    attributes.color = read("COLOR_0", kAnyCount, count);
-    if (!joints.empty()) {
-        attributes.joints = read("JOINTS_0", 4, count);
-        attributes.weights = read("WEIGHTS_0", 4, count);
-    }
+    Attributes attributes = readAttributes(file_, meshIndex, primitive, sets, !deformation.joints.empty());
+    morph(file_, meshIndex, primitive, deformation.weights, sets, attributes);
 
     Mesh mesh;
-    mesh.name = from.name.empty() ? fmt::format("mesh {}", meshIndex) : from.name;
-    if (from.primitives.size() > 1) mesh.name += fmt::format("/{}", index);
-    mesh.indices = toTriangleList(primitive.mode, readIndices(file_, meshIndex, primitive, count));
+    mesh.name = nameOf(from, meshIndex, index);
+    mesh.topology = topologyOf(primitive.mode);
+    mesh.indices = toList(primitive.mode, readIndices(file_, meshIndex, primitive, count));
     if (mesh.indices.empty()) return std::nullopt;
     mesh.vertices.reserve(count);
-    for (std::size_t i = 0; i < count; ++i) {
-        mesh.vertices.push_back(makeVertex(attributes, i));
-        Vertex& vertex = mesh.vertices.back();
-        if (attributes.joints.components && attributes.weights.components)
-            skin(file_, meshIndex, attributes, joints, i, vertex);
-        if (!isFinite(vertex.position)) failPosition(file_, meshIndex, i);
-        mesh.bounds.add(vertex.position);
-    }
-    if (!attributes.normal.components) {
-        makeFlat(mesh);
-        updateBounds(mesh);  // of the corners in use
-    }
+    for (std::size_t i = 0; i < count; ++i) mesh.vertices.push_back(makeVertex(attributes, i));
+    bend(file_, meshIndex, attributes, deformation.joints, mesh.vertices);
+    const bool hasNormals = attributes.normal.components != 0;
+    if (!hasNormals && mesh.topology == MeshTopology::Triangles) makeFlat(mesh);
     countVertices(mesh.vertices.size() - std::min(count, mesh.vertices.size()), mesh.indices.size(), meshIndex);
     mesh.hasTangents = attributes.tangent.components == 4;
+    // glTF 2.0 specification, 3.9.7: how points and lines are shaded.
+    if (mesh.topology != MeshTopology::Triangles) {
+        part.unlit = !hasNormals;
+        part.noMap = !mesh.hasTangents;
+    }
+    addToBounds(file_, meshIndex, mesh);
     return mesh;
 }
 
-const std::vector<Part>& Meshes::parts(int mesh, int skin, const std::vector<glm::mat4>& joints) {
-    const auto [entry, isNew] = parts_.try_emplace({mesh, skin});
+const std::vector<Part>& Meshes::parts(int mesh, const Deformation& deformation) {
+    const auto [entry, isNew] = parts_.try_emplace({mesh, deformation.skin, deformation.weights});
     if (!isNew) return entry->second;
-    const auto& primitives = file_.model.meshes[mesh].primitives;
+    const auto& primitives = file_.model.meshes[std::size_t(mesh)].primitives;
     for (std::size_t i = 0; i < primitives.size(); ++i) {
-        const int material = primitives[i].material;
-        if (material >= int(file_.model.materials.size()))
-            file_.fail("meshes", mesh,
-                       fmt::format("'material' is {}, the file has {}", material, file_.model.materials.size()));
-        if (auto read = readPrimitive(mesh, i, joints)) {
-            entry->second.push_back({.mesh = int(meshes_.size()), .material = std::max(material, -1)});
+        Part part{.mesh = int(meshes_.size()), .material = primitives[i].material};
+        if (auto read = readPrimitive(mesh, i, deformation, part)) {
+            entry->second.push_back(part);
             meshes_.push_back(std::move(*read));
         }
     }

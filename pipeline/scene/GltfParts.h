@@ -3,47 +3,96 @@
 
 #include <cstdint>
 #include <cstring>
+#include <deque>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <tuple>
 #include <vector>
 
-#include <tiny_gltf.h>
-
 #include "core/Document.h"
+#include "core/Files.h"
 #include "scene/GltfLoader.h"
+#include "scene/GltfModel.h"
 
 namespace crevice::gltf {
 
-/// An opened file: tinygltf's model, and the same JSON with positions for messages. Images are still encoded.
+/// An opened file: its JSON with places for messages, the same as structs, and the bytes they lie in.
 struct File {
     std::string name;  ///< As given by the caller.
-    bool binary = false;
-    Value json{};
-    tinygltf::Model model{};
     const LoadOptions& options;
+    bool binary = false;
+    std::vector<std::byte> content{};          ///< The .gltf or .glb itself.
+    std::span<const std::byte> binaryChunk{};  ///< Of a .glb, inside `content`.
+    bool hasBinaryChunk = false;
+    std::deque<std::vector<std::byte>> storage{};  ///< Files, decoded URIs and decompressed views.
+    Value json{};
+    Model model{};
+    mutable std::size_t faultCount = 0;  ///< Formal faults told so far.
 
     /// The place of `list[index]`, as exact as the format allows.
     SourceLoc where(std::string_view list, std::size_t index) const;
     /// Throws an Error at `list[index]`; the message begins with that path.
     [[noreturn]] void fail(std::string_view list, std::size_t index, const std::string& message,
                            const std::string& help = {}) const;
+    /// A breach of the format that does no harm: a warning, or an Error when LoadOptions::strict.
+    void fault(std::string_view list, std::size_t index, const std::string& message) const;
     void warn(std::string_view list, std::size_t index, const std::string& message) const;
     void note(const std::string& message) const;
+    /// `list[index]` in the JSON; must exist.
+    const Value& item(std::string_view list, std::size_t index) const;
 };
 
 /// Reads the file and everything it names except image pixels. Every accessor, buffer view and buffer is checked here.
 File open(const std::filesystem::path& path, const LoadOptions& options);
 
+/// Splits a .glb: fills binaryChunk, returns the JSON text. Throws Error.
+std::string_view readContainer(File& file);
+/// Types, ranges and references of everything in the JSON. Throws Error with the first breach that does harm.
+void checkSchema(const File& file);
+/// What spans several objects: trees, attributes, skins, animations, cameras.
+void checkRules(const File& file);
+
+/// Reads files that the glTF names: inside the allowed folders, within the limits.
+class Resources {
+public:
+    Resources(File& file, const std::filesystem::path& folder);
+    void readBuffers();
+    void readBufferViews();
+    /// Encoded pictures. Those that cannot be had stay empty, with a warning.
+    void readImages();
+
+private:
+    std::filesystem::path placeOf(std::string_view list, std::size_t index, const std::string& uri) const;
+    std::span<const std::byte> keep(std::vector<std::byte> bytes);
+    void readBuffer(std::size_t index, BufferPart& buffer);
+    void checkDataUri(std::size_t index, const BufferPart& buffer);
+
+    File& file_;
+    std::filesystem::path folder_;
+    AssetRoots allowed_;
+    std::size_t bytesLeft_;
+    std::map<std::filesystem::path, std::span<const std::byte>> read_;
+};
+
+/// "%20" → " " (RFC 3986, 2.1); a percent sign without two hex digits stands for itself.
+std::string decodePercent(std::string_view text);
+/// The bytes of a "data:" URI, or nothing when it is broken.
+std::optional<std::vector<std::byte>> decodeDataUri(std::string_view uri);
+/// EXT_meshopt_compression. Throws Error.
+std::vector<std::byte> decompress(const File& file, std::size_t view, std::span<const std::byte> source);
+
 /// Numbers of an accessor, converted to float: normalised integers to [0,1] or [-1,1].
 struct Floats {
     std::vector<float> values;
     int components = 0;
-    std::size_t count() const { return components ? values.size() / components : 0; }
+    std::size_t count() const { return components ? values.size() / std::size_t(components) : 0; }
+    const float* at(std::size_t element) const { return values.data() + element * std::size_t(components); }
 };
 void checkAccessor(const File& file, std::size_t index);
+/// Throws Error: numbers that are not finite, an accessor without data.
 Floats readFloats(const File& file, int accessor);
 
 /// Vectors of floats as a mesh takes them, one after the other: read where they lie in the file's buffer when they are
@@ -59,13 +108,18 @@ public:
         std::memcpy(&value, data_ + index * stride_, sizeof value);
         return value;
     }
+    /// The numbers of all elements, to be changed; copied when they lay in the file.
+    std::vector<float>& edit();
 
 private:
     friend FloatStream readFloatStream(const File& file, int accessor);
+    void useOwn();
+
     const unsigned char* data_ = nullptr;
     std::size_t stride_ = 0;
-    std::vector<float> converted_;  ///< What data_ points to, unless that is the file. Moves keep the place.
+    std::vector<float> own_{};  ///< What data_ points to, unless that is the file. Moves keep the place.
 };
+/// Checked like readFloats().
 FloatStream readFloatStream(const File& file, int accessor);
 /// Unsigned integers of a scalar or vector accessor (indices, joints), one after the other.
 std::vector<std::uint32_t> readIntegers(const File& file, int accessor);
@@ -77,42 +131,114 @@ public:
     /// Index of the scene texture for a glTF texture in one colour space, or -1.
     int use(int texture, bool srgb, std::string_view user);
     /// Decodes every image in use on all cores; a broken one becomes white, with a warning.
-    std::vector<SceneTexture> decode() const;
+    std::vector<SceneTexture> decode();
+    /// Scene textures without a picture of their own, after decode().
+    const std::set<int>& broken() const { return broken_; }
 
 private:
     using Key = std::tuple<int, int, bool>;  // image, sampler, srgb
     const File& file_;
     std::map<Key, int> indices_;
     std::vector<Key> keys_;
+    std::set<int> broken_;
 };
 
-std::vector<SceneMaterial> readMaterials(const File& file, Images& images);
+/// A material whose diffuse and specular-glossiness textures become base colour and metallic-roughness after decoding.
+struct SpecularGlossiness {
+    std::size_t material = 0;
+    glm::vec4 diffuse{1};
+    glm::vec3 specular{1};
+    float glossiness = 1;
+    TextureRef diffuseMap{}, specularGlossinessMap{};
+};
 
-/// A glTF primitive as it is drawn.
+struct Materials {
+    std::vector<SceneMaterial> scene;
+    /// Of each glTF material: the sets of texture coordinates that its textures read, at most two, in stream order.
+    std::vector<std::vector<int>> texcoords;
+    std::vector<SpecularGlossiness> toConvert;
+};
+Materials readMaterials(const File& file, Images& images);
+/// Replaces what readMaterials() left for after decoding. Adds textures.
+void convertSpecularGlossiness(const std::vector<SpecularGlossiness>& materials, Scene& scene);
+
+/// The numbers that an animation gives at one time; what it does not move stays as the file has it.
+struct Pose {
+    std::map<int, glm::vec3> translations{}, scales{};
+    std::map<int, glm::quat> rotations{};
+    std::map<int, std::vector<float>> weights{};
+};
+/// Empty when LoadOptions asks for no animation. Throws Error: no such animation.
+Pose readPose(const File& file);
+/// References, formats and times of all animations.
+void checkAnimations(const File& file);
+
+/// How a glTF primitive is drawn.
 struct Part {
     int mesh = 0;
-    int material = -1;  ///< -1: the default material
+    int material = -1;   ///< -1: the default material
+    bool unlit = false;  ///< Points and lines without normals
+    bool noMap = false;  ///< Points and lines without tangents: no normal map
 };
 
-/// Meshes read once each, when a node first wants them.
+/// What bends a mesh: the joints' matrices (empty: none) and the weights of its morph targets.
+struct Deformation {
+    int skin = -1;
+    std::vector<glm::mat4> joints{};
+    std::vector<float> weights{};
+};
+
+/// A primitive's attributes, read and morphed; vertices are made of them.
+struct Attributes {
+    FloatStream position, normal, tangent, uv0, uv1, color;
+    std::vector<std::vector<std::uint32_t>> joints;
+    std::vector<FloatStream> weights;
+};
+/// Adds the primitive's morph targets. `sets`: the texture coordinates in uv0 and uv1.
+void morph(const File& file, int mesh, const PrimitivePart& primitive, std::span<const float> weights,
+           std::span<const int> sets, Attributes& attributes);
+/// Linear blend skinning, glTF 2.0 specification, 3.7.3.3.
+void bend(const File& file, int mesh, const Attributes& from, std::span<const glm::mat4> joints,
+          std::vector<Vertex>& vertices);
+glm::vec3 unitOr(const glm::vec3& vector, const glm::vec3& otherwise);
+
+/// Meshes read once for each deformation, when a node first wants them.
 class Meshes {
 public:
-    Meshes(const File& file, std::vector<Mesh>& meshes) : file_(file), meshes_(meshes) {}
-    /// The drawable primitives of a mesh; `skin` (or -1) bends them with the joints' matrices given.
-    const std::vector<Part>& parts(int mesh, int skin, const std::vector<glm::mat4>& joints);
+    Meshes(const File& file, const Materials& materials, std::vector<Mesh>& meshes)
+        : file_(file), materials_(materials), meshes_(meshes) {}
+    /// The drawable primitives of a mesh.
+    const std::vector<Part>& parts(int mesh, const Deformation& deformation);
 
 private:
-    std::optional<Mesh> readPrimitive(int mesh, std::size_t primitive, const std::vector<glm::mat4>& joints);
+    std::optional<Mesh> readPrimitive(int mesh, std::size_t primitive, const Deformation& deformation, Part& part);
     void countVertices(std::size_t vertices, std::size_t indices, int mesh);
 
     const File& file_;
+    const Materials& materials_;
     std::vector<Mesh>& meshes_;
-    std::map<std::pair<int, int>, std::vector<Part>> parts_;
+    std::map<std::tuple<int, int, std::vector<float>>, std::vector<Part>> parts_;
     std::size_t vertexCount_ = 0, indexCount_ = 0;
-    bool notedLines_ = false, notedMorph_ = false;
 };
 
-/// Walks the node tree: instances, lights and cameras in world space.
+/// A node of the shown scene.
+struct Placed {
+    int node = 0, depth = 0;
+    glm::mat4 world{1};
+};
+/// The nodes of the scene that LoadOptions::scene names, posed, parents first.
+std::vector<Placed> placeNodes(const File& file, const Pose& pose);
+
+/// Instances, lights and cameras in world space.
 void readNodes(const File& file, Meshes& meshes, Scene& scene);
+/// Throws Error. The light of a node in world space.
+Light readLight(const File& file, int light, const glm::mat4& world, const std::string& otherName);
+/// Nothing, with a warning, when no picture can be taken with it.
+std::optional<Camera> readCamera(const File& file, int camera, const glm::mat4& world, const std::string& otherName);
+/// EXT_mesh_gpu_instancing: one matrix per copy, in the node's space.
+std::vector<glm::mat4> readInstancing(const File& file, const NodePart& node, int index);
+
+/// `scenes[…]` or `animations[…]` by name or index. Throws Error that lists what there is.
+int findNamed(const File& file, const char* list, const char* option, const std::string& wanted);
 
 }  // namespace crevice::gltf

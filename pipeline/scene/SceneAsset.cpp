@@ -75,18 +75,33 @@ private:
     void readGltf(ParamReader& reader) {
         const Value* value = reader.take("gltf");
         if (!value) return;
-        if (!value->isString()) {
-            problems_.error(value->where(), fmt::format("'gltf' must be a string, found {}", value->typeName()),
-                            "name a .gltf or .glb file");
+        if (!value->isString() && !value->isObject()) {
+            problems_.error(value->where(),
+                            fmt::format("'gltf' must be a string or an object, found {}", value->typeName()),
+                            "name a .gltf or .glb file, or write { \"file\": …, \"animation\": …, \"time\": … }");
             return;
         }
-        const std::optional<fs::path> path = findSceneFile(*value, folder_, options_, "the glTF", problems_);
+        LoadOptions options = options_;
+        Value file = *value;
+        if (value->isObject()) file = Value::makeString(readGltfChoice(*value, options), value->where());
+        const std::optional<fs::path> path = findSceneFile(file, folder_, options_, "the glTF", problems_);
         if (!path) return;
         try {
-            scene_ = loadGltf(*path, options_);
+            scene_ = loadGltf(*path, options);
         } catch (const Error& error) {
             problems_.add(error);
         }
+    }
+
+    // What the caller asks for comes before what the document says.
+    std::string readGltfChoice(const Value& value, LoadOptions& options) {
+        GltfFields fields;
+        readStruct(value, "'gltf'", fields);
+        if (options.scene.empty()) options.scene = fields.scene;
+        const bool posed = !options.animation.empty() || options.time;
+        if (!posed) options.animation = fields.animation;
+        if (!posed && fields.time >= 0) options.time = fields.time;
+        return fields.file;
     }
 
     void readMaterials(const Value* materials) {

@@ -81,6 +81,13 @@ void visitFields(ParamVisitor& v, ArrayFields& f) {
     v.field("step", f.step, place("Distance of neighbours along x, y and z"));
 }
 
+void visitFields(ParamVisitor& v, GltfFields& f) {
+    v.field("file", f.file, {.help = "The .gltf or .glb, below the document's folder or an asset root"});
+    v.field("scene", f.scene, {.help = "Name or index of the scene in it; empty = its default one"});
+    v.field("animation", f.animation, {.help = "Name or index of the animation that poses it; empty = none"});
+    v.field("time", f.time, between(-1, 1e6, "seconds", "Moment of the animation; -1 = the rest pose"));
+}
+
 void visitFields(ParamVisitor& v, CameraFields& f) {
     v.field("name", f.name, {.help = "For --camera"});
     v.field("eye", f.eye, place("Where it stands"));
@@ -233,6 +240,7 @@ std::vector<SceneFieldTable> sceneFieldTables() {
     };
     for (int kind = 0; kind < kPrimitiveKindCount; ++kind)
         add(std::string("primitive ") + kPrimitiveNames[kind], PrimitiveFields{.kind = kind});
+    add("gltf", GltfFields{});
     add("placement", PlacementFields{});
     add("array", ArrayFields{});
     add("material", MaterialFields{});

@@ -36,6 +36,12 @@ struct ArrayFields {
     glm::vec3 count{1}, step{1};
 };
 
+/// A glTF and the part of it that is shown.
+struct GltfFields {
+    std::string file, scene, animation;
+    float time = -1;
+};
+
 struct CameraFields {
     std::string name;
     glm::vec3 eye{0, 1, 5}, target{0}, up{0, 1, 0};
@@ -78,6 +84,7 @@ struct EnvironmentFields {
 void visitFields(ParamVisitor& visitor, PrimitiveFields& fields);
 void visitFields(ParamVisitor& visitor, PlacementFields& fields);
 void visitFields(ParamVisitor& visitor, ArrayFields& fields);
+void visitFields(ParamVisitor& visitor, GltfFields& fields);
 void visitFields(ParamVisitor& visitor, CameraFields& fields);
 void visitFields(ParamVisitor& visitor, LightFields& fields);
 void visitFields(ParamVisitor& visitor, MaterialFields& fields);

@@ -26,7 +26,7 @@ struct GltfText {
     std::string views = R"({"buffer": 0, "byteLength": 48}, {"buffer": 0, "byteOffset": 48, "byteLength": 8})";
     std::string accessors = R"({"bufferView": 0, "componentType": 5126, "count": 4, "type": "VEC3"},
                                {"bufferView": 1, "componentType": 5123, "count": 3, "type": "SCALAR"})";
-    std::string nodes = R"({"mesh": 0})", roots = "0", rest, uri;
+    std::string nodes = R"({"mesh": 0})", roots = "0", rest, uri, scenes, moreBuffers;
     std::string version = "2.0";
 
     GltfText() {
@@ -36,7 +36,8 @@ struct GltfText {
     std::string json(bool binary = false) const {
         const std::string data =
             uri.empty() ? "data:application/octet-stream;base64," + test::encodeBase64(bytes) : uri;
-        return R"({"asset": {"version": ")" + version + R"("}, "scene": 0, "scenes": [{"nodes": [)" + roots + R"(]}],
+        return R"({"asset": {"version": ")" + version + R"("}, "scene": 0, "scenes": [{"nodes": [)" + roots + "]}" +
+               scenes + R"(],
 "nodes": [)" + nodes +
                R"(],
 "meshes": [{"name": "square", "primitives": [{"attributes": {)" +
@@ -46,7 +47,8 @@ struct GltfText {
 "bufferViews": [)" +
                views + R"(],
 "buffers": [{"byteLength": )" +
-               std::to_string(bytes.size()) + (binary ? "" : R"(, "uri": ")" + data + "\"") + "}]" + rest + "}";
+               std::to_string(bytes.size()) + (binary ? "" : R"(, "uri": ")" + data + "\"") + "}" + moreBuffers + "]" +
+               rest + "}";
     }
     std::string glb() const {
         std::string text = json(true);

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
+#include "app/commands/ArgumentText.h"
 #include "core/Error.h"
 #include "core/Text.h"
 #include "scene/Primitives.h"
@@ -36,6 +37,15 @@ SceneFile findScene(const AssetRoots& roots, const std::string& argument) {
 }
 
 void addSceneOptions(CLI::App& command, SceneOptions& options) {
+    const auto add = [&](const char* name, std::string& value, const char* type, const char* help) {
+        command.add_option(name, value, help)->type_name(type);
+    };
+    // `crevice validate` has its own --scene, which names a file.
+    if (!command.get_option_no_throw("--scene"))
+        add("--scene", options.scene, "NAME|INDEX", "Scene of a glTF with several; default the one it names");
+    add("--animation", options.animation, "NAME|INDEX", "Animation that poses a glTF; default the first, with --time");
+    add("--time", options.time, "SECONDS", "Moment of the animation; default the rest pose");
+    command.add_flag("--strict", options.strict, "Faults of a glTF that do no harm are errors, too");
     command
         .add_option("--allow-path", options.allowedPaths, "Folder tree that the scene may read as well (repeatable)")
         ->type_name("DIR")
@@ -55,6 +65,15 @@ LoadOptions makeLoadOptions(const AssetRoots& roots, const Log& log, const Scene
         load.allowedRoots.emplace_back(path);
     }
     for (const std::string& limit : options.limits) setLimit(load.limits, limit);
+    load.scene = options.scene;
+    load.animation = options.animation;
+    load.strict = options.strict;
+    if (!options.time.empty()) {
+        const double seconds = parseNumber("--time", options.time);
+        if (!(seconds >= 0 && seconds <= 1e6))
+            throw Error(fmt::format("--time: '{}' is out of range", options.time), "write seconds from 0 to 1000000");
+        load.time = static_cast<float>(seconds);
+    }
     return load;
 }
 

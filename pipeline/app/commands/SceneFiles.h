@@ -16,8 +16,10 @@ class App;
 
 namespace crevice {
 
-/// What commands that read scenes let them do.
+/// Which part of a scene file is shown, how strictly it is read and what it may do. As given; empty = not given.
 struct SceneOptions {
+    std::string scene, animation, time;     ///< --scene, --animation, --time
+    bool strict = false;                    ///< --strict
     bool allowOutside = false;              ///< --allow-outside
     std::vector<std::string> allowedPaths;  ///< --allow-path DIR
     std::vector<std::string> limits;        ///< --limit NAME=VALUE

@@ -1,0 +1,74 @@
+// Cameras, and the lights of KHR_lights_punctual, as they stand in the world.
+#include <cmath>
+
+#include <fmt/format.h>
+#include <glm/gtc/constants.hpp>
+
+#include "scene/GltfParts.h"
+
+namespace crevice::gltf {
+
+std::optional<Camera> readCamera(const File& file, int index, const glm::mat4& world, const std::string& otherName) {
+    const std::size_t camera = std::size_t(index);
+    const Value& from = file.item("cameras", camera);
+    const std::string type = textOr(from, "type");
+    const Value* lens = objectIn(&from, type);
+    const glm::vec3 eye(world[3]), backward(world[2]), up(world[1]);
+    if (!(glm::length(backward) > 0) || !(glm::length(glm::cross(up, backward)) > 0)) {
+        file.warn("cameras", camera, "its node is scaled to nothing: it is left out");
+        return std::nullopt;
+    }
+    Camera to = Camera::lookAt(eye, eye - backward, up);
+    to.name = textOr(from, "name");
+    if (to.name.empty()) to.name = otherName;
+    if (type != "orthographic" && type != "perspective") return std::nullopt;  // told by checkSchema()
+    if (!lens) file.fail("cameras", camera, fmt::format("'{}' is missing", type));
+    to.near = float(numberOr(*lens, "znear", 0));
+    to.far = float(numberOr(*lens, "zfar", 0));
+    if (type == "orthographic") {
+        to.orthographic = true;
+        to.orthoHeight = float(2 * std::abs(numberOr(*lens, "ymag", 0)));
+        if (!(to.orthoHeight > 0)) {
+            file.warn("cameras", camera, "'ymag' is 0: it is left out");
+            return std::nullopt;
+        }
+    } else {
+        to.fovY = float(numberOr(*lens, "yfov", 0));
+        if (!(to.fovY < glm::pi<float>())) {
+            file.warn("cameras", camera, "'yfov' is not below pi: it is left out");
+            return std::nullopt;
+        }
+    }
+    return to;
+}
+
+Light readLight(const File& file, int index, const glm::mat4& world, const std::string& otherName) {
+    const std::size_t light = std::size_t(index);
+    const Value& from = listIn(*extensionOf(file.json, "KHR_lights_punctual"), "lights")[light];
+    Light to;
+    const std::string type = textOr(from, "type");
+    if (type == "point")
+        to.type = LightType::Point;
+    else if (type == "spot")
+        to.type = LightType::Spot;
+    else if (type != "directional")
+        file.fail("lights", light, fmt::format("'type' is '{}'; it may be directional, point or spot", type));
+    if (const auto c = floatsIn(from, "color"); c.size() == 3) to.color = {c[0], c[1], c[2]};
+    to.intensity = float(numberOr(from, "intensity", 1));
+    to.range = float(numberOr(from, "range", 0));
+    const Value* spot = objectIn(&from, "spot");
+    if (to.type == LightType::Spot) {
+        to.innerAngle = spot ? float(numberOr(*spot, "innerConeAngle", 0)) : 0;
+        to.outerAngle = spot ? float(numberOr(*spot, "outerConeAngle", glm::quarter_pi<double>())) : to.outerAngle;
+        if (!(to.innerAngle < to.outerAngle))
+            file.fail("lights", light, "'innerConeAngle' is not below 'outerConeAngle'");
+    }
+    to.position = glm::vec3(world[3]);
+    const glm::vec3 direction = -glm::vec3(world[2]);
+    to.direction = glm::length(direction) > 0 ? glm::normalize(direction) : glm::vec3(0, 0, -1);
+    to.name = textOr(from, "name");
+    if (to.name.empty()) to.name = otherName;
+    return to;
+}
+
+}  // namespace crevice::gltf

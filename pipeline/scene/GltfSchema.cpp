@@ -1,0 +1,186 @@
+// Walks the JSON of a glTF along the tables: types, ranges, lengths and references.
+#include "scene/GltfSchema.h"
+
+#include <fmt/format.h>
+
+#include "scene/GltfParts.h"
+
+namespace crevice::gltf {
+
+namespace {
+
+/// Where the walk is: written out only for messages.
+struct Trail {
+    const Trail* parent = nullptr;
+    const char* key = "";
+    std::ptrdiff_t index = -1;  ///< Of a list's item.
+};
+
+class Walk {
+public:
+    explicit Walk(const File& file) : file_(file) {}
+
+    void checkObject(const Value& value, std::span<const Rule> rules, const Trail& trail) {
+        for (const Rule& rule : rules) {
+            const Value* member = value.find(rule.key);
+            const Trail next{&trail, rule.key, -1};
+            if (member)
+                checkMember(*member, rule, next);
+            else if (rule.required)
+                breach(rule, value, fmt::format("'{}' is missing", rule.key), trail);
+        }
+    }
+
+private:
+    // Throws an Error, or tells a fault of what does no harm.
+    void breach(const Rule& rule, const Value& value, const std::string& what, const Trail& trail) const {
+        // The outermost list and its index are the place; the rest of the path goes into the message.
+        std::string path, list;
+        std::size_t index = 0;
+        for (const Trail* at = &trail; at && at->parent; at = at->parent) {
+            const bool outermost = !at->parent->parent || (list.empty() && std::string_view(at->key) == "lights");
+            if (outermost && at->index >= 0) {
+                list = at->key;
+                index = std::size_t(at->index);
+                break;
+            }
+            const std::string step = at->index >= 0 ? fmt::format("{}[{}]", at->key, at->index) : at->key;
+            path = path.empty() ? step : step + "." + path;
+        }
+        const bool named = path.empty() || what.starts_with("'" + path + "'");
+        const std::string message = named ? what : fmt::format("in '{}': {}", path, what);
+        if (rule.harmless && !list.empty()) return file_.fault(list, index, message);
+        if (rule.harmless) return file_.note(message);
+        if (!list.empty()) file_.fail(list, index, message);
+        throw Error(file_.binary ? SourceLoc{file_.name} : value.where(), message,
+                    "this breaks a rule of glTF 2.0: repair the entry, or export the file again");
+    }
+
+    void checkMember(const Value& value, const Rule& rule, const Trail& trail) {
+        switch (rule.shape) {
+            case Shape::Flag:
+                if (!value.isBool()) wrongType(rule, value, "true or false", trail);
+                return;
+            case Shape::Text:
+                return checkText(value, rule, trail);
+            case Shape::Integer:
+                return checkInteger(value, rule, trail);
+            case Shape::Number:
+                checkNumber(value, rule, trail);
+                return;
+            case Shape::Index:
+                return checkIndex(value, rule, trail);
+            case Shape::Object:
+                if (!value.isObject()) return wrongType(rule, value, "an object", trail);
+                return checkObject(value, rule.rules, trail);
+            case Shape::IndexMap:
+                return checkMap(value, rule, trail);
+            case Shape::Numbers:
+            case Shape::Indices:
+            case Shape::Objects:
+            case Shape::IndexMaps:
+                return checkList(value, rule, trail);
+        }
+    }
+
+    void wrongType(const Rule& rule, const Value& value, const char* wanted, const Trail& trail) const {
+        breach(rule, value, fmt::format("'{}' must be {}, found {}", rule.key, wanted, value.typeName()), trail);
+    }
+
+    void checkText(const Value& value, const Rule& rule, const Trail& trail) const {
+        if (!value.isString()) return wrongType(rule, value, "a string", trail);
+        if (!rule.words || std::string_view(rule.words).find(" " + value.string() + " ") != std::string_view::npos)
+            return;
+        Rule mild = rule;
+        mild.harmless = true;  // what cannot do without it says so
+        breach(mild, value,
+               fmt::format("'{}' is '{}'; known are{}", rule.key, value.string().substr(0, 80), rule.words), trail);
+    }
+
+    bool checkNumber(const Value& value, const Rule& rule, const Trail& trail, const char* type = "a number") const {
+        if (!value.isNumber()) return wrongType(rule, value, type, trail), false;
+        const double number = value.number();
+        const bool low = rule.aboveMin ? !(number > rule.min) : !(number >= rule.min);
+        if (!low && number <= rule.max) return true;
+        if (rule.shape == Shape::Integer && number == 0 && rule.min == 1)
+            return breach(rule, value, fmt::format("'{}' is 0", rule.key), trail), false;
+        breach(rule, value,
+               fmt::format("'{}' is {}, outside {} … {}{}", rule.key, number, rule.min, rule.max,
+                           rule.aboveMin ? " (without the first)" : ""),
+               trail);
+        return false;
+    }
+    bool checkWhole(const Value& value, const Rule& rule, const Trail& trail) const {
+        constexpr double kMax = 9007199254740992.0;
+        if (value.isNumber() && value.number() >= 0 && value.number() < kMax &&
+            value.number() == double(std::size_t(value.number()))) {
+            if (value.isInteger()) return true;
+            Rule mild = rule;
+            mild.harmless = true;
+            breach(mild, value, fmt::format("'{}' is written with a fraction", rule.key), trail);
+            return true;
+        }
+        breach(rule, value, fmt::format("'{}' is not a non-negative integer", rule.key), trail);
+        return false;
+    }
+
+    void checkInteger(const Value& value, const Rule& rule, const Trail& trail) const {
+        if (checkWhole(value, rule, trail)) checkNumber(value, rule, trail, "an integer");
+    }
+
+    std::size_t listSize(std::string_view list) const {
+        if (list != "lights") return listIn(file_.json, list).size();
+        const Value* lights = extensionOf(file_.json, "KHR_lights_punctual");
+        return lights ? listIn(*lights, list).size() : 0;
+    }
+
+    void checkIndex(const Value& value, const Rule& rule, const Trail& trail) const {
+        if (!checkWhole(value, rule, trail)) return;
+        const std::size_t count = listSize(rule.list);
+        if (value.number() >= double(count))
+            breach(rule, value,
+                   fmt::format("'{}' names {}[{}], the file has {}", rule.key, rule.list, std::size_t(value.number()),
+                               count),
+                   trail);
+    }
+
+    void checkMap(const Value& value, const Rule& rule, const Trail& trail) {
+        if (!value.isObject()) return wrongType(rule, value, "an object", trail);
+        for (const Member& member : value.members()) {
+            Rule each{.key = member.key.c_str(), .shape = Shape::Index, .list = rule.list};
+            checkIndex(member.value, each, trail);
+        }
+    }
+
+    void checkList(const Value& value, const Rule& rule, const Trail& trail) {
+        if (!value.isArray()) return wrongType(rule, value, "a list", trail);
+        const std::size_t count = value.items().size();
+        Rule mild = rule;
+        mild.harmless = mild.harmless || (count == 0 && rule.most == 0);
+        if (count < rule.least || (rule.most && count > rule.most))
+            breach(mild, value,
+                   rule.most == 0 ? fmt::format("'{}' is empty", rule.key)
+                                  : fmt::format("'{}' has {} numbers, not {}", rule.key, count, rule.least),
+                   trail);
+        for (std::size_t i = 0; i < count; ++i) {
+            const Value& item = value.items()[i];
+            const Trail next{trail.parent, rule.key, std::ptrdiff_t(i)};
+            if (rule.shape == Shape::Numbers) checkNumber(item, rule, trail);
+            if (rule.shape == Shape::Indices) checkIndex(item, rule, trail);
+            if (rule.shape == Shape::IndexMaps) checkMap(item, rule, next);
+            if (rule.shape != Shape::Objects) continue;
+            if (item.isObject())
+                checkObject(item, rule.rules, next);
+            else
+                breach(rule, item, fmt::format("it must be an object, found {}", item.typeName()), next);
+        }
+    }
+
+    const File& file_;
+};
+
+}  // namespace
+
+void checkSchema(const File& file) { Walk(file).checkObject(file.json, documentRules(), Trail{}); }
+
+}  // namespace crevice::gltf
