@@ -187,7 +187,8 @@ Layout layOutData(const File& file, std::size_t index) {
     const std::size_t limit = 6 * file.options.limits.maxVertices;
     if (file.model.accessors[index].count > limit)
         file.fail("accessors", index,
-                  fmt::format("'count' {} is beyond the limit of {}", file.model.accessors[index].count, limit));
+                  fmt::format("'count' {} is beyond the limit of {}", file.model.accessors[index].count, limit),
+                  raiseLimit("vertices"));
     const Layout layout = layOut(file, index);
     if (layout.base.missing || layout.sparseIndices.missing || layout.sparseValues.missing)
         file.fail("accessors", index, "its buffer has no data", "a buffer needs an 'uri' or a binary chunk");

@@ -177,7 +177,8 @@ void Meshes::countVertices(std::size_t vertices, std::size_t indices, int mesh) 
     indexCount_ += indices;
     const std::size_t limit = file_.options.limits.maxVertices;
     if (vertexCount_ > limit || indexCount_ > 6 * limit)
-        file_.fail("meshes", std::size_t(mesh), fmt::format("the scene has more than {} vertices", limit));
+        file_.fail("meshes", std::size_t(mesh), fmt::format("the scene has more than {} vertices", limit),
+                   raiseLimit("vertices"));
 }
 
 std::optional<Mesh> Meshes::readPrimitive(int meshIndex, std::size_t index, const Deformation& deformation,

@@ -149,7 +149,8 @@ private:
     void addInstance(const Placed& node, int mesh, int material, const glm::mat4& world, bool mirrors) {
         if (scene_.instances.size() >= file_.options.limits.maxInstances)
             file_.fail("nodes", std::size_t(node.node),
-                       fmt::format("the scene has more than {} instances", file_.options.limits.maxInstances));
+                       fmt::format("the scene has more than {} instances", file_.options.limits.maxInstances),
+                       raiseLimit("instances"));
         scene_.instances.push_back({.mesh = mesh,
                                     .material = material,
                                     .world = world,
@@ -230,7 +231,8 @@ std::vector<Placed> placeNodes(const File& file, const Pose& pose) {
             file.fail("nodes", node, "it has two parents or is its own ancestor", "a node may have one parent");
         seen[node] = true;
         if (next.depth > file.options.limits.maxNodeDepth)
-            file.fail("nodes", node, fmt::format("it is nested deeper than {}", file.options.limits.maxNodeDepth));
+            file.fail("nodes", node, fmt::format("it is nested deeper than {}", file.options.limits.maxNodeDepth),
+                      raiseLimit("node-depth"));
         next.world = next.world * localMatrix(file, next.node, pose);
         if (!allFinite(next.world)) file.fail("nodes", node, "its place in the world is not finite");
         push(file.model.nodes[node].children, next.world, next.depth + 1);
@@ -254,7 +256,8 @@ std::vector<glm::mat4> readInstancing(const File& file, const NodePart& node, in
     const Floats translation = read("TRANSLATION", 3), rotation = read("ROTATION", 4), scale = read("SCALE", 3);
     if (count > file.options.limits.maxInstances)
         file.fail("nodes", std::size_t(index),
-                  fmt::format("the scene has more than {} instances", file.options.limits.maxInstances));
+                  fmt::format("the scene has more than {} instances", file.options.limits.maxInstances),
+                  raiseLimit("instances"));
     std::vector<glm::mat4> copies;
     for (std::size_t i = 0; i < count; ++i) {
         const auto vector = [&](const Floats& from, const glm::vec3& otherwise) {

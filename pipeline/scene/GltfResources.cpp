@@ -47,8 +47,10 @@ fs::path Resources::placeOf(std::string_view list, std::size_t index, const std:
     if (name.find('\0') != std::string::npos) file_.fail(list, index, "'uri' has a zero byte");
     const fs::path path = folder_ / name;
     if (!allowed_.contains(path))
-        file_.fail(list, index, fmt::format("'{}' lies outside the scene's folder", name),
-                   "files are only read from the folder of the scene and below: copy it there");
+        file_.fail(
+            list, index, fmt::format("'{}' lies outside the scene's folder", name),
+            "files are only read from the folder of the scene and below: copy it there, or allow its folder with "
+            "--allow-path DIR");
     return path;
 }
 
@@ -114,7 +116,10 @@ void Resources::readBuffers() {
     for (std::size_t i = 0; i < file_.model.buffers.size(); ++i) {
         total += std::min(file_.model.buffers[i].byteLength, file_.options.limits.maxFileBytes + 1);
         if (total > file_.options.limits.maxFileBytes)
-            file_.fail("buffers", i, "the buffers are larger than the limit");
+            file_.fail(
+                "buffers", i,
+                fmt::format("the buffers are larger than the limit of {} bytes", file_.options.limits.maxFileBytes),
+                raiseLimit("file-bytes"));
         readBuffer(i, file_.model.buffers[i]);
     }
 }
@@ -138,7 +143,10 @@ void Resources::readBufferViews() {
         const Compression& packed = *view.compression;
         decompressed += std::min(view.byteLength, file_.options.limits.maxFileBytes + 1);
         if (decompressed > file_.options.limits.maxFileBytes)
-            file_.fail("bufferViews", i, "the decompressed views are larger than the limit");
+            file_.fail("bufferViews", i,
+                       fmt::format("the decompressed views are larger than the limit of {} bytes",
+                                   file_.options.limits.maxFileBytes),
+                       raiseLimit("file-bytes"));
         view.bytes = keep(decompress(file_, i, part(packed.buffer, packed.byteOffset, packed.byteLength)));
     }
 }
