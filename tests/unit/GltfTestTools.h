@@ -75,6 +75,6 @@ struct GltfText {
 
 // A white-and-red picture of 2 × 1 pixels, 8-bit RGB.
 inline constexpr const char* kPng =
-    "iVBORw0KGgoAAAANSUhEUgAAAAIAAAABCAIAAAB7QOjdAAAAD0lEQVR42mP4//8/ww0GAA/uA/13wAnYAAAAAElFTkSuQmCC";
+    "iVBORw0KGgoAAAANSUhEUgAAAAIAAAABCAIAAAB7QOjdAAAADUlEQVR42mP4DwQMDAAR9QP9hjw3TQAAAABJRU5ErkJggg==";
 
 }  // namespace crevice::test
