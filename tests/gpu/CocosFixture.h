@@ -12,10 +12,7 @@ class CocosTest : public FrameTest {
 protected:
     static constexpr const char* kBoth[] = {"article-v33", "article-v36"};
 
-    static cocos::Roots rootsOf(const std::string& article) {
-        const std::filesystem::path folder = std::filesystem::path(CREVICE_TEST_SOURCE_DIR) / "tests/cocos" / article;
-        return {.chunks = {}, .project = folder / "project", .engine = folder / "engine"};
-    }
+    static cocos::Roots rootsOf(const std::string& article);
 
     /// The project's .rpp as a document of ours. Its warnings are kept in `importWarnings_`.
     std::string imported(const std::string& article) {

@@ -30,7 +30,8 @@ std::vector<cocos::StageFacts> factsOf(const StageRegistry& registry) {
         stage->params(table);
         for (const ParamRow& row : table.rows()) facts.params.push_back(row.key);
         StageDeclaration declaration;
-        const StageDesc desc{};
+        StageDesc desc;
+        desc.effect = stageClass.name;  // a name of any kind: data-only stages insist on one
         StageIo io(declaration, desc, RunInfo{});
         stage->declare(io);
         for (const TargetWrite& write : declaration.writes) facts.writes.push_back(write.target);
