@@ -1,5 +1,4 @@
-// Ambient occlusion from the G-buffer: one full-screen draw into cc_ssaoMap. Which form it has is the effect's
-// business.
+// Ambient occlusion from the G-buffer: one full-screen draw into cc_ssaoMap, in the form of its effect.
 #include "CocosTargets.h"
 #include "SsaoKernel.h"
 #include "flow/RenderStage.h"
@@ -16,8 +15,7 @@ static_assert(sizeof(SsaoBlock) == 1040);
 enum Bake { kBakeAuto, kBakeOn, kBakeOff };
 constexpr const char* kBakeNames[] = {"auto", "on", "off"};
 constexpr const char* kKernelNames[] = {"article", "stratified", "crytek", "learnopengl", "songjihu"};
-/// Pixels x samples of a run from which constants in the shader repay the longer compile (about half a frame at
-/// 1280x720).
+/// Pixels x samples of a run from which constants in the shader repay their compile: half a frame at 1280x720.
 constexpr std::uint64_t kBakeFrom = 30'000'000;
 
 class SsaoStage final : public RenderStage {
@@ -41,8 +39,7 @@ public:
         draw_ = io.fullscreen(isCocos(io.profile()) ? "pipeline/ssao-effect" : "ssao");
         bindGbuffer(io, draw_);
         const std::uint32_t perRay = rayPoints_ < samples_ ? rayPoints_ : samples_;
-        const std::span<const glm::vec4> kernel =
-            makeSsaoSamples(kindFor(io.profile()), seed_, perRay, {data_.samples, samples_});
+        const auto kernel = makeSsaoSamples(kindFor(io.profile()), seed_, perRay, {data_.samples, samples_});
         const bool baked = bake_ == kBakeOn || (bake_ == kBakeAuto && io.run().pixels() * kernel.size() >= kBakeFrom);
         io.define(draw_, "SSAO_SAMPLES", std::to_string(kernel.size()));
         if (perRay > 0) io.define(draw_, "RAY_POINTS", std::to_string(perRay));

@@ -12,7 +12,7 @@ KeyReader::KeyReader(const Value& object, std::string what, EffectReading readin
     : object_(object), what_(std::move(what)), reading_(reading), problems_(problems) {}
 
 const Value* KeyReader::find(const char* key) {
-    known_.emplace_back(key);
+    if (std::find(known_.begin(), known_.end(), key) == known_.end()) known_.emplace_back(key);
     return object_.find(key);
 }
 

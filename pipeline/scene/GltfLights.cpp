@@ -15,7 +15,7 @@ std::optional<Camera> readCamera(const File& file, int index, const glm::mat4& w
     const Value* lens = objectIn(&from, type);
     const glm::vec3 eye(world[3]), backward(world[2]), up(world[1]);
     if (!(glm::length(backward) > 0) || !(glm::length(glm::cross(up, backward)) > 0)) {
-        file.warn("cameras", camera, "its node is scaled to nothing: it is left out");
+        file.fault("cameras", camera, "its node is scaled to nothing: it is left out");
         return std::nullopt;
     }
     Camera to = Camera::lookAt(eye, eye - backward, up);
@@ -29,13 +29,13 @@ std::optional<Camera> readCamera(const File& file, int index, const glm::mat4& w
         to.orthographic = true;
         to.orthoHeight = float(2 * std::abs(numberOr(*lens, "ymag", 0)));
         if (!(to.orthoHeight > 0)) {
-            file.warn("cameras", camera, "'ymag' is 0: it is left out");
+            file.fault("cameras", camera, "'ymag' is 0: it is left out");
             return std::nullopt;
         }
     } else {
         to.fovY = float(numberOr(*lens, "yfov", 0));
         if (!(to.fovY < glm::pi<float>())) {
-            file.warn("cameras", camera, "'yfov' is not below pi: it is left out");
+            file.fault("cameras", camera, "'yfov' is not below pi: it is left out");
             return std::nullopt;
         }
     }

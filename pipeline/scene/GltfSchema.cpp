@@ -94,7 +94,9 @@ private:
         Rule mild = rule;
         mild.harmless = true;  // what cannot do without it says so
         breach(mild, value,
-               fmt::format("'{}' is '{}'; known are{}", rule.key, value.string().substr(0, 80), rule.words), trail);
+               fmt::format("'{}' is '{}'; known are{:.{}}", rule.key, value.string().substr(0, 80), rule.words,
+                           std::string_view(rule.words).size() - 1),
+               trail);
     }
 
     bool checkNumber(const Value& value, const Rule& rule, const Trail& trail, const char* type = "a number") const {

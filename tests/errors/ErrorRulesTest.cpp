@@ -44,7 +44,7 @@ std::vector<std::string> unquotedNames(const std::string& message) {
     static const std::regex kName(
         "[A-Za-z0-9]*[a-z][A-Z][A-Za-z0-9]*|\\w*[a-z]_\\w+|\\w+\\.(json|effect|chunk|gltf|glb|png)\\b");
     static const std::regex kEntry("\\w+\\[[0-9]+\\]");  // accessors[3], as glTF counts
-    static const std::set<std::string> kWords = {"glTF"};
+    static const std::set<std::string> kWords = {"glTF", "WebP"};
     const std::string rest = std::regex_replace(std::regex_replace(message, kQuoted, "$1"), kEntry, "");
     std::vector<std::string> names;
     for (std::sregex_iterator it(rest.begin(), rest.end(), kName), end; it != end; ++it)

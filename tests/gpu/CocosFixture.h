@@ -3,6 +3,8 @@
 
 #include "FrameFixture.h"
 
+#include <regex>
+
 #include "cocos/CocosEffects.h"
 #include "cocos/Import.h"
 
@@ -41,7 +43,8 @@ protected:
     /// `from` in the document becomes `to`, and `targets` (members of an object, each with a comma) join its targets.
     void loadArticle(const std::string& article, Sets sets = {}, const std::string& from = {},
                      const std::string& to = {}, const std::string& targets = {}) {
-        std::string text = imported(article);
+        // Whether an object begins on a line of its own is the importer's taste.
+        std::string text = std::regex_replace(imported(article), std::regex("\\{\\s+\""), "{ \"");
         const auto replace = [&](const std::string& old, const std::string& fresh) {
             const std::size_t at = text.find(old);
             ASSERT_NE(at, std::string::npos) << old << '\n' << text;

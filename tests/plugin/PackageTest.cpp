@@ -90,7 +90,8 @@ TEST(Package, StagesIncludeOneHeader) {
 
 TEST(Package, TheSsaoStageIsWrittenAsAnOutsiderWould) {
     const fs::path stage = kSource / "stages/SsaoStage.cpp";
-    EXPECT_EQ(includesOf(stage), (std::vector<std::string>{"\"SsaoKernel.h\"", "\"flow/RenderStage.h\""}));
+    EXPECT_EQ(includesOf(stage),
+              (std::vector<std::string>{"\"CocosTargets.h\"", "\"SsaoKernel.h\"", "\"flow/RenderStage.h\""}));
     EXPECT_LT(linesOf(stage).size(), kMaxSsaoLines);
 }
 
