@@ -7,7 +7,7 @@ packages=(
   g++ cmake ninja-build pkg-config ccache mold
   libvulkan-dev mesa-vulkan-drivers vulkan-validationlayers
   glslang-dev glslang-tools spirv-tools libspirv-cross-c-shared-dev
-  libglm-dev nlohmann-json3-dev libyaml-cpp-dev
+  libglm-dev libtinygltf-dev nlohmann-json3-dev libyaml-cpp-dev
   libcli11-dev libfmt-dev libspdlog-dev
   libspng-dev libturbojpeg0-dev libwebp-dev libopenexr-dev libstb-dev zlib1g-dev libmeshoptimizer-dev
   libembree-dev libjs-chart.js

@@ -129,7 +129,7 @@ File open(const fs::path& path, const LoadOptions& options) {
     checkVersion(file);
     checkExtensions(file);
     checkSchema(file);
-    file.model = readModel(file.json);
+    file.model = readModel(file.json, file.name);
     Resources resources(file, fs::absolute(path).parent_path());
     resources.readBuffers();
     resources.readBufferViews();

@@ -1,7 +1,13 @@
-// Members of checked JSON as numbers and structs.
+// tinygltf reads what checkSchema() let pass; members of the checked JSON as numbers.
 #include "scene/GltfModel.h"
 
 #include <algorithm>
+#include <cassert>
+#include <tuple>
+#include <utility>
+
+#include <tiny_gltf.h>
+#include <glm/gtc/type_ptr.hpp>
 
 namespace crevice::gltf {
 
@@ -11,13 +17,51 @@ const Value* memberOf(const Value& object, std::string_view key) {
     return object.isObject() ? object.find(key) : nullptr;
 }
 
+/// tinygltf reads these; bytes and pictures it never sees: they are read within the limits by Resources.
+constexpr const char* kParsed[] = {"asset", "accessors", "bufferViews", "textures", "meshes", "nodes"};
+
+tinygltf::Model parse(const Value& json, const std::string& name) {
+    Value known = Value::makeObject();
+    for (const char* key : kParsed)
+        if (const Value* list = memberOf(json, key)) known.set(key, *list);
+    const std::string text = known.toJson(0);
+    tinygltf::Model model;
+    tinygltf::TinyGLTF parser;
+    std::string errors, warnings;
+    bool good = false;
+    try {
+        good = parser.LoadASCIIFromString(&model, &errors, &warnings, text.data(), unsigned(text.size()), "");
+    } catch (const std::exception& failure) {
+        errors += failure.what();
+    }
+    // Its words are not for users; checkSchema() has words for what is likely.
+    if (!good)
+        throw Error(SourceLoc{name}, "the glTF breaks a rule of its format that is not told apart here",
+                    "check the file with a glTF validator, or export it again");
+    return model;
+}
+
 /// Rows and columns of an accessor's type.
-struct TypeRow {
-    const char* name;
-    int columns, rows;
-};
-constexpr TypeRow kTypes[] = {{"SCALAR", 1, 1}, {"VEC2", 1, 2}, {"VEC3", 1, 3}, {"VEC4", 1, 4},
-                              {"MAT2", 2, 2},   {"MAT3", 3, 3}, {"MAT4", 4, 4}};
+std::pair<int, int> shapeOf(int type) {
+    switch (type) {
+        case TINYGLTF_TYPE_SCALAR:
+            return {1, 1};
+        case TINYGLTF_TYPE_VEC2:
+            return {1, 2};
+        case TINYGLTF_TYPE_VEC3:
+            return {1, 3};
+        case TINYGLTF_TYPE_VEC4:
+            return {1, 4};
+        case TINYGLTF_TYPE_MAT2:
+            return {2, 2};
+        case TINYGLTF_TYPE_MAT3:
+            return {3, 3};
+        case TINYGLTF_TYPE_MAT4:
+            return {4, 4};
+        default:
+            return {1, 0};
+    }
+}
 
 AttributeMap attributesIn(const Value* object) {
     AttributeMap attributes;
@@ -27,6 +71,10 @@ AttributeMap attributesIn(const Value* object) {
     return attributes;
 }
 
+AttributeMap attributesOf(const std::map<std::string, int>& from) { return {from.begin(), from.end()}; }
+
+std::vector<float> floatsOf(const std::vector<double>& from) { return {from.begin(), from.end()}; }
+
 BufferPart readBuffer(const Value& from) {
     BufferPart to{.byteLength = sizeOr(from, "byteLength"), .uri = textOr(from, "uri")};
     to.hasUri = memberOf(from, "uri") != nullptr;
@@ -34,12 +82,16 @@ BufferPart readBuffer(const Value& from) {
     return to;
 }
 
-BufferViewPart readBufferView(const Value& from) {
-    BufferViewPart to{.buffer = intOr(from, "buffer"),
-                      .byteOffset = sizeOr(from, "byteOffset"),
-                      .byteLength = sizeOr(from, "byteLength"),
-                      .byteStride = sizeOr(from, "byteStride")};
-    if (const Value* meshopt = extensionOf(from, "EXT_meshopt_compression"))
+ImagePart readImage(const Value& from) {
+    return {.name = textOr(from, "name"), .uri = textOr(from, "uri"), .bufferView = intOr(from, "bufferView")};
+}
+
+BufferViewPart readBufferView(const tinygltf::BufferView& from, const Value& json) {
+    BufferViewPart to{.buffer = from.buffer,
+                      .byteOffset = from.byteOffset,
+                      .byteLength = from.byteLength,
+                      .byteStride = from.byteStride};
+    if (const Value* meshopt = extensionOf(json, "EXT_meshopt_compression"))
         to.compression = Compression{.buffer = intOr(*meshopt, "buffer"),
                                      .byteOffset = sizeOr(*meshopt, "byteOffset"),
                                      .byteLength = sizeOr(*meshopt, "byteLength"),
@@ -50,16 +102,15 @@ BufferViewPart readBufferView(const Value& from) {
     return to;
 }
 
-AccessorPart readAccessor(const Value& from) {
-    AccessorPart to{.bufferView = intOr(from, "bufferView"),
-                    .byteOffset = sizeOr(from, "byteOffset"),
-                    .count = sizeOr(from, "count"),
-                    .componentType = intOr(from, "componentType"),
-                    .normalized = flagOr(from, "normalized")};
-    const std::string type = textOr(from, "type");
-    for (const TypeRow& row : kTypes)
-        if (type == row.name) to.columns = row.columns, to.rows = row.rows;
-    const Value* sparse = objectIn(&from, "sparse");
+AccessorPart readAccessor(const tinygltf::Accessor& from, const Value& json) {
+    AccessorPart to{.bufferView = from.bufferView,
+                    .byteOffset = from.byteOffset,
+                    .count = from.count,
+                    .componentType = from.componentType,
+                    .normalized = from.normalized};
+    std::tie(to.columns, to.rows) = shapeOf(from.type);
+    // tinygltf keeps offsets of sparse parts in 32 bits with a sign: they are read from the checked JSON.
+    const Value* sparse = objectIn(&json, "sparse");
     const Value* indices = objectIn(sparse, "indices");
     const Value* values = objectIn(sparse, "values");
     if (indices && values)
@@ -72,41 +123,39 @@ AccessorPart readAccessor(const Value& from) {
     return to;
 }
 
-TexturePart readTexture(const Value& from) {
-    TexturePart to{.source = intOr(from, "source"), .sampler = intOr(from, "sampler")};
-    if (const Value* webp = extensionOf(from, "EXT_texture_webp")) to.webp = intOr(*webp, "source");
+TexturePart readTexture(const tinygltf::Texture& from, const Value& json) {
+    TexturePart to{.source = from.source, .sampler = from.sampler};
+    if (const Value* webp = extensionOf(json, "EXT_texture_webp")) to.webp = intOr(*webp, "source");
     return to;
 }
 
-MeshPart readMesh(const Value& from) {
-    MeshPart to{.name = textOr(from, "name"), .weights = floatsIn(from, "weights")};
-    for (const Value& item : listIn(from, "primitives")) {
-        PrimitivePart primitive{.attributes = attributesIn(objectIn(&item, "attributes")),
-                                .indices = intOr(item, "indices"),
-                                .material = intOr(item, "material"),
-                                .mode = intOr(item, "mode", kTriangles)};
-        for (const Value& target : listIn(item, "targets")) primitive.targets.push_back(attributesIn(&target));
+MeshPart readMesh(const tinygltf::Mesh& from, const Value&) {
+    MeshPart to{.name = from.name, .weights = floatsOf(from.weights)};
+    for (const tinygltf::Primitive& item : from.primitives) {
+        PrimitivePart primitive{.attributes = attributesOf(item.attributes),
+                                .indices = item.indices,
+                                .material = item.material,
+                                .mode = item.mode};
+        for (const auto& target : item.targets) primitive.targets.push_back(attributesOf(target));
         to.primitives.push_back(std::move(primitive));
     }
     return to;
 }
 
-NodePart readNode(const Value& from) {
-    NodePart to{.name = textOr(from, "name"),
-                .mesh = intOr(from, "mesh"),
-                .skin = intOr(from, "skin"),
-                .camera = intOr(from, "camera"),
-                .weights = floatsIn(from, "weights")};
-    for (const Value& child : listIn(from, "children")) to.children.push_back(int(child.number()));
-    if (const std::vector<float> m = floatsIn(from, "matrix"); m.size() == 16) {
-        glm::mat4& matrix = to.matrix.emplace(1);
-        for (std::size_t i = 0; i < 16; ++i) matrix[int(i / 4)][int(i % 4)] = m[i];
-    }
-    if (const auto t = floatsIn(from, "translation"); t.size() == 3) to.translation = {t[0], t[1], t[2]};
-    if (const auto s = floatsIn(from, "scale"); s.size() == 3) to.scale = {s[0], s[1], s[2]};
-    if (const auto r = floatsIn(from, "rotation"); r.size() == 4) to.rotation = glm::quat(r[3], r[0], r[1], r[2]);
-    if (const Value* light = extensionOf(from, "KHR_lights_punctual")) to.light = intOr(*light, "light");
-    if (const Value* copies = extensionOf(from, "EXT_mesh_gpu_instancing"))
+NodePart readNode(const tinygltf::Node& from, const Value& json) {
+    NodePart to{.name = from.name,
+                .children = from.children,
+                .mesh = from.mesh,
+                .skin = from.skin,
+                .camera = from.camera,
+                .weights = floatsOf(from.weights)};
+    if (from.matrix.size() == 16) to.matrix = glm::mat4(glm::make_mat4(from.matrix.data()));
+    if (const auto& t = from.translation; t.size() == 3) to.translation = {t[0], t[1], t[2]};
+    if (const auto& s = from.scale; s.size() == 3) to.scale = {s[0], s[1], s[2]};
+    if (const auto& r = from.rotation; r.size() == 4)
+        to.rotation = glm::quat(float(r[3]), float(r[0]), float(r[1]), float(r[2]));
+    if (const Value* light = extensionOf(json, "KHR_lights_punctual")) to.light = intOr(*light, "light");
+    if (const Value* copies = extensionOf(json, "EXT_mesh_gpu_instancing"))
         to.instancing = attributesIn(objectIn(copies, "attributes"));
     return to;
 }
@@ -117,8 +166,13 @@ void readAll(const Value& json, const char* list, std::vector<Part>& parts, Part
     for (const Value& item : listIn(json, list)) parts.push_back(read(item));
 }
 
-ImagePart readImage(const Value& from) {
-    return {.name = textOr(from, "name"), .uri = textOr(from, "uri"), .bufferView = intOr(from, "bufferView")};
+template <class Part, class Parsed>
+void readAll(const std::vector<Parsed>& parsed, const Value& json, const char* list, std::vector<Part>& parts,
+             Part (*read)(const Parsed&, const Value&)) {
+    const std::vector<Value>& items = listIn(json, list);
+    assert(parsed.size() == items.size());
+    parts.reserve(items.size());
+    for (std::size_t i = 0; i < items.size(); ++i) parts.push_back(read(parsed[i], items[i]));
 }
 
 }  // namespace
@@ -169,15 +223,16 @@ std::vector<float> floatsIn(const Value& object, std::string_view key) {
     return floats;
 }
 
-Model readModel(const Value& json) {
+Model readModel(const Value& json, const std::string& name) {
+    const tinygltf::Model parsed = parse(json, name);
     Model model;
     readAll(json, "buffers", model.buffers, readBuffer);
-    readAll(json, "bufferViews", model.bufferViews, readBufferView);
-    readAll(json, "accessors", model.accessors, readAccessor);
     readAll(json, "images", model.images, readImage);
-    readAll(json, "textures", model.textures, readTexture);
-    readAll(json, "meshes", model.meshes, readMesh);
-    readAll(json, "nodes", model.nodes, readNode);
+    readAll(parsed.bufferViews, json, "bufferViews", model.bufferViews, readBufferView);
+    readAll(parsed.accessors, json, "accessors", model.accessors, readAccessor);
+    readAll(parsed.textures, json, "textures", model.textures, readTexture);
+    readAll(parsed.meshes, json, "meshes", model.meshes, readMesh);
+    readAll(parsed.nodes, json, "nodes", model.nodes, readNode);
     return model;
 }
 

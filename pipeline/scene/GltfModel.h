@@ -105,8 +105,8 @@ struct Model {
     std::vector<NodePart> nodes;
 };
 
-/// Reads a document that checkSchema() let pass.
-Model readModel(const Value& json);
+/// Reads a document that checkSchema() let pass, by tinygltf: it trusts its input. Throws Error when it refuses.
+Model readModel(const Value& json, const std::string& name);
 
 // Members of an object that checkSchema() let pass; `otherwise` when they are absent.
 double numberOr(const Value& object, std::string_view key, double otherwise);
