@@ -20,6 +20,8 @@ protected:
     void SetUp() override {
         folder_ = fs::temp_directory_path() / ("crevice-docs-" + std::to_string(getpid()));
         fs::create_directories(folder_);
+        // Some documents show the projects that the tests keep.
+        fs::create_directory_symlink(fs::path(CREVICE_TEST_SOURCE_DIR) / "tests", folder_ / "tests");
     }
     void TearDown() override {
         std::error_code ignored;
@@ -69,7 +71,8 @@ TEST_P(DocsCommands, Run) {
 
 INSTANTIATE_TEST_SUITE_P(Of, DocsCommands,
                          testing::Values("README.md", "docs/quickstart.md", "docs/command-line.md",
-                                         "docs/troubleshooting.md", "docs/reference.md", "docs/ao/debug-views.md"),
+                                         "docs/troubleshooting.md", "docs/reference.md", "docs/ao/debug-views.md",
+                                         "docs/from-cocos.md"),
                          [](const auto& c) {
                              return std::regex_replace(std::string(c.param), std::regex("\\W"), "_");
                          });
