@@ -154,9 +154,9 @@ bool isKnown(const AccessorPart& accessor) { return accessor.rows > 0 && compone
 
 Layout layOut(const File& file, std::size_t index) {
     const AccessorPart& accessor = file.model.accessors[index];
-    if (!isKnown(accessor))
-        file.fail("accessors", index,
-                  fmt::format("'componentType' {} or 'type' is not one of glTF 2.0", accessor.componentType));
+    if (componentSize(accessor.componentType) == 0)
+        file.fail("accessors", index, fmt::format("'componentType' {} is not one of glTF 2.0", accessor.componentType));
+    if (!isKnown(accessor)) file.fail("accessors", index, "'type' is not one of glTF 2.0");
     Layout layout;
     layout.componentBytes = componentSize(accessor.componentType);
     layOutElement(accessor, layout);

@@ -3,8 +3,7 @@
 
 #include <algorithm>
 #include <cassert>
-#include <tuple>
-#include <utility>
+#include <iterator>
 
 #include <tiny_gltf.h>
 #include <glm/gtc/type_ptr.hpp>
@@ -17,13 +16,39 @@ const Value* memberOf(const Value& object, std::string_view key) {
     return object.isObject() ? object.find(key) : nullptr;
 }
 
+/// Rows and columns of an accessor's type.
+struct TypeRow {
+    const char* name;
+    int columns, rows;
+};
+constexpr TypeRow kTypes[] = {{"SCALAR", 1, 1}, {"VEC2", 1, 2}, {"VEC3", 1, 3}, {"VEC4", 1, 4},
+                              {"MAT2", 2, 2},   {"MAT3", 3, 3}, {"MAT4", 4, 4}};
+
+const TypeRow* typeOf(const Value& accessor) {
+    const std::string type = textOr(accessor, "type");
+    const auto* row =
+        std::find_if(std::begin(kTypes), std::end(kTypes), [&](const TypeRow& r) { return type == r.name; });
+    return row == std::end(kTypes) ? nullptr : row;
+}
+
+/// tinygltf refuses unknown types even where nobody reads the accessor, which does no harm: it sees others.
+Value withKnownTypes(Value accessors) {
+    for (Value& item : accessors.items()) {
+        if (!typeOf(item)) item.set("type", Value::makeString("SCALAR"));
+        if (tinygltf::GetComponentSizeInBytes(std::uint32_t(intOr(item, "componentType"))) <= 0)
+            item.set("componentType", Value::makeNumber(kFloat));
+    }
+    return accessors;
+}
+
 /// tinygltf reads these; bytes and pictures it never sees: they are read within the limits by Resources.
 constexpr const char* kParsed[] = {"asset", "accessors", "bufferViews", "textures", "meshes", "nodes"};
 
 tinygltf::Model parse(const Value& json, const std::string& name) {
     Value known = Value::makeObject();
     for (const char* key : kParsed)
-        if (const Value* list = memberOf(json, key)) known.set(key, *list);
+        if (const Value* list = memberOf(json, key))
+            known.set(key, std::string_view(key) == "accessors" ? withKnownTypes(*list) : *list);
     const std::string text = known.toJson(0);
     tinygltf::Model model;
     tinygltf::TinyGLTF parser;
@@ -39,28 +64,6 @@ tinygltf::Model parse(const Value& json, const std::string& name) {
         throw Error(SourceLoc{name}, "the glTF breaks a rule of its format that is not told apart here",
                     "check the file with a glTF validator, or export it again");
     return model;
-}
-
-/// Rows and columns of an accessor's type.
-std::pair<int, int> shapeOf(int type) {
-    switch (type) {
-        case TINYGLTF_TYPE_SCALAR:
-            return {1, 1};
-        case TINYGLTF_TYPE_VEC2:
-            return {1, 2};
-        case TINYGLTF_TYPE_VEC3:
-            return {1, 3};
-        case TINYGLTF_TYPE_VEC4:
-            return {1, 4};
-        case TINYGLTF_TYPE_MAT2:
-            return {2, 2};
-        case TINYGLTF_TYPE_MAT3:
-            return {3, 3};
-        case TINYGLTF_TYPE_MAT4:
-            return {4, 4};
-        default:
-            return {1, 0};
-    }
 }
 
 AttributeMap attributesIn(const Value* object) {
@@ -106,9 +109,9 @@ AccessorPart readAccessor(const tinygltf::Accessor& from, const Value& json) {
     AccessorPart to{.bufferView = from.bufferView,
                     .byteOffset = from.byteOffset,
                     .count = from.count,
-                    .componentType = from.componentType,
+                    .componentType = intOr(json, "componentType"),
                     .normalized = from.normalized};
-    std::tie(to.columns, to.rows) = shapeOf(from.type);
+    if (const TypeRow* type = typeOf(json)) to.columns = type->columns, to.rows = type->rows;
     // tinygltf keeps offsets of sparse parts in 32 bits with a sign: they are read from the checked JSON.
     const Value* sparse = objectIn(&json, "sparse");
     const Value* indices = objectIn(sparse, "indices");

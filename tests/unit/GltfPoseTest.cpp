@@ -152,6 +152,13 @@ TEST(GltfPose, FaultsThatDoNoHarmAreWarningsOrErrorsWhenStrict) {
     document = Document();
     document.nodes = R"({"mesh": 0, "rotation": [0, 0, 0, 0.5]})";
     check(document, "nodes[0]: its 'rotation' is not of unit length");
+    // Accessors that nobody reads.
+    document = Document();
+    document.accessors += R"(, {"bufferView": 0, "componentType": 5120, "count": 1, "type": "VEC9"})";
+    check(document, "accessors[2]: 'type' is 'VEC9'");
+    document = Document();
+    document.accessors += R"(, {"bufferView": 0, "componentType": 5999, "count": 1, "type": "SCALAR"})";
+    check(document, "accessors[2]: 'componentType' 5999 is unknown");
 }
 
 }  // namespace
