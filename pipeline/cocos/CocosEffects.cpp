@@ -81,7 +81,7 @@ StageText CocosEffects::State::stageText(const EffectAsset& effect, const StageP
     } catch (const Error& error) {
         own.add(error);
     }
-    problems.add(Error(own.all()));
+    if (!own.all().empty()) problems.add(Error(own.all()));
     if (own.hasErrors()) return {};
     kept.push_back({key, text});
     if (kept.size() > kKeptStages) kept.pop_front();
@@ -130,7 +130,7 @@ std::vector<StageText> CocosEffects::flatten(const EffectAsset& effect, const Ef
     std::vector<StageText> texts;
     Problems own;
     for (const StagePart& part : partsOf(pass)) texts.push_back(state_->stageText(effect, part, own));
-    problems.add(Error(own.all()));
+    if (!own.all().empty()) problems.add(Error(own.all()));
     if (own.hasErrors()) texts.clear();
     return texts;
 }
