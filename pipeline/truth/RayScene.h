@@ -26,10 +26,11 @@ struct SurfaceHit {
     int instance = -1;             ///< Index into Scene::instances.
 };
 
-/// What is solid: all instances of triangle meshes whose material does not blend (TransparentStage draws those after the G-buffer, so the
-/// techniques that are measured do not see them either). Alpha-masked materials have holes where base colour, texture
-/// (bilinear, without mipmaps) and vertex colour together are below the cutoff. Instances are flattened: a triangle
-/// costs about 100 bytes per instance. The scene must outlive this. Safe to use from many threads.
+/// What is solid: all instances of triangle meshes whose material does not blend (TransparentStage draws those after
+/// the G-buffer, so the techniques that are measured do not see them either). Alpha-masked materials have holes where
+/// base colour, texture (bilinear, without mipmaps) and vertex colour together are below the cutoff. Instances are
+/// flattened: a triangle costs about 100 bytes per instance. The scene must outlive this. Safe to use from many
+/// threads.
 class RayScene {
 public:
     /// Throws RenderError when Embree fails (out of memory).

@@ -4,8 +4,8 @@
 #include <span>
 #include <type_traits>
 
-#include "core/Files.h"
 #include "core/CacheFile.h"
+#include "core/Files.h"
 
 namespace crevice {
 namespace {

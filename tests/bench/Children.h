@@ -8,7 +8,7 @@
 namespace crevice::bench {
 
 struct ChildCost {
-    double milliseconds = 0;      ///< Processor time, threads included.
+    double milliseconds = 0;  ///< Processor time, threads included.
     /// Most resident memory. Linux counts what the caller held at most when it started the program: start programs
     /// before loading much.
     std::uint64_t peakBytes = 0;

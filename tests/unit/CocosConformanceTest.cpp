@@ -27,7 +27,8 @@ TEST_P(CocosConformance, EveryPassCompiles) {
         const EffectAsset& asset = library.asset(name);
         for (std::size_t technique = 0; technique < asset.techniques.size(); ++technique) {
             for (std::size_t pass = 0; pass < asset.techniques[technique].passes.size(); ++pass) {
-                VariantRequest request{.effect = name, .technique = technique, .pass = pass, .defines = GetParam(), .where = {}};
+                VariantRequest request{
+                    .effect = name, .technique = technique, .pass = pass, .defines = GetParam(), .where = {}};
                 request.checkOnly = true;  // some passes have resources that only the engine binds
                 EXPECT_NO_THROW({
                     try {
