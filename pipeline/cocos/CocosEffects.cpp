@@ -35,20 +35,6 @@ void appendEntry(StageText& text, const std::string& entry, const SourceLoc& whe
     text.conditionOf.push_back(0);
 }
 
-struct StagePart {
-    ShaderStageBits stage;
-    const std::string& reference;
-    const SourceLoc& where;
-};
-
-std::vector<StagePart> partsOf(const EffectPass& pass) {
-    std::vector<StagePart> parts;
-    if (!pass.vertex.empty()) parts.push_back({kVertexBit, pass.vertex, pass.vertexWhere});
-    if (!pass.fragment.empty()) parts.push_back({kFragmentBit, pass.fragment, pass.fragmentWhere});
-    if (!pass.compute.empty()) parts.push_back({kComputeBit, pass.compute, pass.computeWhere});
-    return parts;
-}
-
 }  // namespace
 
 struct CocosEffects::State {

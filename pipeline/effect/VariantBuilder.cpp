@@ -13,20 +13,6 @@
 namespace crevice {
 namespace {
 
-struct StagePart {
-    ShaderStageBits stage;
-    const std::string& reference;
-    const SourceLoc& where;
-};
-
-std::vector<StagePart> partsOf(const EffectPass& pass) {
-    std::vector<StagePart> parts;
-    if (!pass.vertex.empty()) parts.push_back({kVertexBit, pass.vertex, pass.vertexWhere});
-    if (!pass.fragment.empty()) parts.push_back({kFragmentBit, pass.fragment, pass.fragmentWhere});
-    if (!pass.compute.empty()) parts.push_back({kComputeBit, pass.compute, pass.computeWhere});
-    return parts;
-}
-
 /// With an entry, main() is ours: it hands the entry's result to the place where the stage's result goes.
 std::string entryText(ShaderStageBits stage, const std::string& entry) {
     if (entry.empty()) return {};
@@ -57,6 +43,14 @@ Defines mergeDefines(const EffectPass& pass, const VariantRequest& request, Prob
 }
 
 }  // namespace
+
+std::vector<StagePart> partsOf(const EffectPass& pass) {
+    std::vector<StagePart> parts;
+    if (!pass.vertex.empty()) parts.push_back({kVertexBit, pass.vertex, pass.vertexWhere});
+    if (!pass.fragment.empty()) parts.push_back({kFragmentBit, pass.fragment, pass.fragmentWhere});
+    if (!pass.compute.empty()) parts.push_back({kComputeBit, pass.compute, pass.computeWhere});
+    return parts;
+}
 
 ProgramReference parseProgram(const std::string& reference) {
     const auto colon = reference.find(':');

@@ -15,6 +15,15 @@ struct ProgramReference {
 };
 ProgramReference parseProgram(const std::string& reference);
 
+/// A stage that a pass names, and where it does.
+struct StagePart {
+    ShaderStageBits stage;
+    const std::string& reference;
+    const SourceLoc& where;
+};
+/// Vertex before fragment. Refers to the pass.
+std::vector<StagePart> partsOf(const EffectPass& pass);
+
 /// The flattened stages of a pass, vertex before fragment.
 struct FlatPass {
     std::vector<ShaderStageBits> stages;
