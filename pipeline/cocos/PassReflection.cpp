@@ -2,46 +2,17 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <span>
 
 #include "cocos/Reflection.h"
+#include "core/StateNames.h"
 
 namespace crevice::cocos {
 namespace {
 
-using Names = std::vector<const char*>;
+using Names = std::span<const char* const>;
 
-const Names kCompare = {"never", "less", "equal", "less_equal", "greater", "not_equal", "greater_equal", "always"};
-const Names kStencilOps = {"zero", "keep", "replace", "incr", "decr", "invert", "incr_wrap", "decr_wrap"};
-const Names kBlendFactors = {"zero",
-                             "one",
-                             "src_alpha",
-                             "dst_alpha",
-                             "one_minus_src_alpha",
-                             "one_minus_dst_alpha",
-                             "src_color",
-                             "dst_color",
-                             "one_minus_src_color",
-                             "one_minus_dst_color",
-                             "src_alpha_saturate",
-                             "constant_color",
-                             "one_minus_constant_color",
-                             "constant_alpha",
-                             "one_minus_constant_alpha"};
-const Names kBlendOps = {"add", "sub", "rev_sub", "min", "max"};
-const Names kPrimitives = {"point_list",
-                           "line_list",
-                           "line_strip",
-                           "line_loop",
-                           "line_list_adjacency",
-                           "line_strip_adjacency",
-                           "iso_line_list",
-                           "triangle_list",
-                           "triangle_strip",
-                           "triangle_fan",
-                           "triangle_list_adjacency",
-                           "triangle_strip_adjacency",
-                           "triangle_patch_adjacency",
-                           "quad_patch_list"};
+constexpr std::array kShadeNames = {"gourand", "flat"};
 
 std::string lower(std::string text) {
     std::transform(text.begin(), text.end(), text.begin(),
@@ -50,7 +21,7 @@ std::string lower(std::string text) {
 }
 
 /// A word of the list as its place in it; everything else stays.
-Value numbered(const Value& value, const Names& names) {
+Value numbered(const Value& value, Names names) {
     if (!value.isString()) return value;
     const std::string word = lower(value.string());
     for (std::size_t i = 0; i < names.size(); ++i)
@@ -81,11 +52,11 @@ Value rasterizerState(const Value& written) {
     Value out = Value::makeObject();
     for (const Member& member : written.members()) {
         if (member.key == "cullMode")
-            out.set(member.key, numbered(member.value, {"none", "front", "back"}));
+            out.set(member.key, numbered(member.value, kCullNames));
         else if (member.key == "polygonMode")
-            out.set(member.key, numbered(member.value, {"fill", "point", "line"}));
+            out.set(member.key, numbered(member.value, kPolygonNames));
         else if (member.key == "shadeModel")
-            out.set(member.key, numbered(member.value, {"gourand", "flat"}));
+            out.set(member.key, numbered(member.value, kShadeNames));
         else
             out.set(member.key, member.value);
     }
@@ -98,8 +69,8 @@ Value depthStencilState(const Value& written) {
         const std::string& key = member.key;
         const bool compare = key == "depthFunc" || key.starts_with("stencilFunc");
         const bool operation = key.find("Op") != std::string::npos;
-        const Value value = compare     ? numbered(member.value, kCompare)
-                            : operation ? numbered(member.value, kStencilOps)
+        const Value value = compare     ? numbered(member.value, kCompareNames)
+                            : operation ? numbered(member.value, kStencilNames)
                                         : member.value;
         const bool both = key.starts_with("stencil") && !key.ends_with("Front") && !key.ends_with("Back");
         for (const char* side : {"Front", "Back"}) {
@@ -117,8 +88,8 @@ Value blendTarget(const Value& written) {
         const std::string& key = member.key;
         const bool equation = key == "blendEq" || key == "blendAlphaEq";
         const bool factor = !equation && (key.starts_with("blendSrc") || key.starts_with("blendDst"));
-        out.set(key, equation                  ? numbered(member.value, kBlendOps)
-                     : factor                  ? numbered(member.value, kBlendFactors)
+        out.set(key, equation                  ? numbered(member.value, kBlendOpNames)
+                     : factor                  ? numbered(member.value, kBlendFactorNames)
                      : key == "blendColorMask" ? colorMask(member.value)
                                                : member.value);
     }
@@ -164,7 +135,7 @@ Value reflectPass(const Value& pass, const std::string& program, int priority, c
         else if (key == "blendState" && value.isObject())
             out.set(key, blendState(value));
         else if (key == "primitive")
-            out.set(key, numbered(value, kPrimitives));
+            out.set(key, numbered(value, kTopologyNames));
         else if (key == "dynamicStates")
             out.set(key, dynamicStates(value));
         else if (key == "stage")

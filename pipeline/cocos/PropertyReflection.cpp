@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "cocos/Reflection.h"
+#include "core/StateNames.h"
 
 namespace crevice::cocos {
 namespace {
@@ -155,8 +156,7 @@ private:
 std::int64_t samplerHash(const Value& sampler) {
     static const std::vector<const char*> kFilters = {"none", "point", "linear", "anisotropic"};
     static const std::vector<const char*> kAddresses = {"wrap", "mirror", "clamp", "border"};
-    static const std::vector<const char*> kComparisons = {"never",   "less",      "equal",         "less_equal",
-                                                          "greater", "not_equal", "greater_equal", "always"};
+    static const std::vector<const char*> kComparisons(kCompareNames.begin(), kCompareNames.end());
     // Bits from 0 on: three filters and three addresses of 2 bits, anisotropy, comparison, LOD range and bias of 4.
     struct Field {
         const char* key;

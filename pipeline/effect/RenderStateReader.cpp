@@ -4,10 +4,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <span>
 #include <type_traits>
 
+#include "core/StateNames.h"
 #include "core/Text.h"
 
 namespace crevice {
@@ -19,47 +21,29 @@ struct Named {
     Enum value;
 };
 
-constexpr Named<CompareOp> kCompareOps[] = {{"never", CompareOp::Never},
-                                            {"less", CompareOp::Less},
-                                            {"equal", CompareOp::Equal},
-                                            {"less_equal", CompareOp::LessEqual},
-                                            {"greater", CompareOp::Greater},
-                                            {"not_equal", CompareOp::NotEqual},
-                                            {"greater_equal", CompareOp::GreaterEqual},
-                                            {"always", CompareOp::Always}};
-constexpr Named<StencilOp> kStencilOps[] = {{"zero", StencilOp::Zero},          {"keep", StencilOp::Keep},
-                                            {"replace", StencilOp::Replace},    {"incr", StencilOp::Incr},
-                                            {"decr", StencilOp::Decr},          {"invert", StencilOp::Invert},
-                                            {"incr_wrap", StencilOp::IncrWrap}, {"decr_wrap", StencilOp::DecrWrap}};
-constexpr Named<CullMode> kCullModes[] = {
-    {"none", CullMode::None}, {"front", CullMode::Front}, {"back", CullMode::Back}};
-constexpr Named<PolygonMode> kPolygonModes[] = {
-    {"fill", PolygonMode::Fill}, {"line", PolygonMode::Line}, {"point", PolygonMode::Point}};
-constexpr Named<BlendFactor> kBlendFactors[] = {{"zero", BlendFactor::Zero},
-                                                {"one", BlendFactor::One},
-                                                {"src_alpha", BlendFactor::SrcAlpha},
-                                                {"dst_alpha", BlendFactor::DstAlpha},
-                                                {"one_minus_src_alpha", BlendFactor::OneMinusSrcAlpha},
-                                                {"one_minus_dst_alpha", BlendFactor::OneMinusDstAlpha},
-                                                {"src_color", BlendFactor::SrcColor},
-                                                {"dst_color", BlendFactor::DstColor},
-                                                {"one_minus_src_color", BlendFactor::OneMinusSrcColor},
-                                                {"one_minus_dst_color", BlendFactor::OneMinusDstColor},
-                                                {"src_alpha_saturate", BlendFactor::SrcAlphaSaturate},
-                                                {"constant_color", BlendFactor::ConstantColor},
-                                                {"one_minus_constant_color", BlendFactor::OneMinusConstantColor},
-                                                {"constant_alpha", BlendFactor::ConstantAlpha},
-                                                {"one_minus_constant_alpha", BlendFactor::OneMinusConstantAlpha}};
-constexpr Named<BlendOp> kBlendOps[] = {{"add", BlendOp::Add},
-                                        {"sub", BlendOp::Sub},
-                                        {"rev_sub", BlendOp::RevSub},
-                                        {"min", BlendOp::Min},
-                                        {"max", BlendOp::Max}};
-constexpr Named<Topology> kTopologies[] = {
-    {"point_list", Topology::PointList},         {"line_list", Topology::LineList},
-    {"line_strip", Topology::LineStrip},         {"triangle_list", Topology::TriangleList},
-    {"triangle_strip", Topology::TriangleStrip}, {"triangle_fan", Topology::TriangleFan}};
-constexpr Named<std::uint8_t> kColorMasks[] = {{"none", 0}, {"r", 1}, {"g", 2}, {"b", 4}, {"a", 8}, {"all", 15}};
+template <class Enum, std::size_t N>
+constexpr std::array<Named<Enum>, N> inOrder(const std::array<const char*, N>& names) {
+    std::array<Named<Enum>, N> table{};
+    for (std::size_t i = 0; i < N; ++i) table[i] = {names[i], static_cast<Enum>(i)};
+    return table;
+}
+
+constexpr auto kCompareOps = inOrder<CompareOp>(kCompareNames);
+constexpr auto kStencilOps = inOrder<StencilOp>(kStencilNames);
+constexpr auto kCullModes = inOrder<CullMode>(kCullNames);
+constexpr auto kBlendFactors = inOrder<BlendFactor>(kBlendFactorNames);
+constexpr auto kBlendOps = inOrder<BlendOp>(kBlendOpNames);
+/// In Cocos' order, which is not that of the enum.
+constexpr std::array<Named<PolygonMode>, 3> kPolygonModes = {
+    {{"fill", PolygonMode::Fill}, {"point", PolygonMode::Point}, {"line", PolygonMode::Line}}};
+constexpr std::array<Named<Topology>, 6> kTopologies = {{{"point_list", Topology::PointList},
+                                                         {"line_list", Topology::LineList},
+                                                         {"line_strip", Topology::LineStrip},
+                                                         {"triangle_list", Topology::TriangleList},
+                                                         {"triangle_strip", Topology::TriangleStrip},
+                                                         {"triangle_fan", Topology::TriangleFan}}};
+constexpr std::array<Named<std::uint8_t>, 6> kColorMasks = {
+    {{"none", 0}, {"r", 1}, {"g", 2}, {"b", 4}, {"a", 8}, {"all", 15}}};
 
 std::string lower(std::string text) {
     std::transform(text.begin(), text.end(), text.begin(),
@@ -68,14 +52,14 @@ std::string lower(std::string text) {
 }
 
 template <class Enum, std::size_t N>
-void readEnum(KeyReader& reader, const char* key, const Named<Enum> (&names)[N], Enum& out) {
+void readEnum(KeyReader& reader, const char* key, const std::array<Named<Enum>, N>& names, Enum& out) {
     const Value* value = reader.find(key);
     if (value == nullptr || value->isNull()) return;
     if (!value->isString()) {
         // Cocos' own files may hold the number behind the name: our values are Cocos' numbers, but for the topology.
         const bool known = !reader.strict() && value->isInteger() && value->integer() >= 0 && value->integer() < int(N);
         if (known && !std::is_same_v<Enum, Topology>)
-            out = names[value->integer()].value;
+            out = names[std::size_t(value->integer())].value;
         else
             reader.string(key);
         return;

@@ -8,35 +8,14 @@
 #include <optional>
 #include <span>
 
+#include "core/StateNames.h"
 #include "core/Text.h"
 
 namespace crevice {
 namespace {
 
-constexpr const char* kCompareOps[] = {"never",   "less",      "equal",         "less_equal",
-                                       "greater", "not_equal", "greater_equal", "always"};
-constexpr const char* kCullModes[] = {"none", "front", "back"};
-constexpr const char* kPolygonModes[] = {"fill", "point", "line"};
 constexpr PolygonMode kPolygons[] = {PolygonMode::Fill, PolygonMode::Point, PolygonMode::Line};
-constexpr const char* kBlendOps[] = {"add", "sub", "rev_sub", "min", "max"};
-constexpr const char* kBlendFactors[] = {"zero",
-                                         "one",
-                                         "src_alpha",
-                                         "dst_alpha",
-                                         "one_minus_src_alpha",
-                                         "one_minus_dst_alpha",
-                                         "src_color",
-                                         "dst_color",
-                                         "one_minus_src_color",
-                                         "one_minus_dst_color",
-                                         "src_alpha_saturate",
-                                         "constant_color",
-                                         "one_minus_constant_color",
-                                         "constant_alpha",
-                                         "one_minus_constant_alpha"};
-constexpr const char* kPrimitives[] = {
-    "point_list",           "line_list",     "line_strip",    "line_loop",      "line_list_adjacency",
-    "line_strip_adjacency", "iso_line_list", "triangle_list", "triangle_strip", "triangle_fan"};
+/// Of kTopologyNames as far as Crevice draws them.
 constexpr Topology kTopologies[] = {
     Topology::PointList, Topology::LineList, Topology::LineStrip,    Topology::LineStrip,     Topology::LineList,
     Topology::LineStrip, Topology::LineList, Topology::TriangleList, Topology::TriangleStrip, Topology::TriangleFan};
@@ -83,8 +62,8 @@ private:
 };
 
 void readRasterizer(const StateReader& reader, RenderState& state) {
-    reader.word("cullMode", kCullModes, state.cullMode);
-    if (const auto mode = reader.index("polygonMode", kPolygonModes)) state.polygonMode = kPolygons[*mode];
+    reader.word("cullMode", kCullNames, state.cullMode);
+    if (const auto mode = reader.index("polygonMode", kPolygonNames)) state.polygonMode = kPolygons[*mode];
     reader.flag("isFrontFaceCCW", state.frontFaceCcw);
     bool biased = state.depthBias != 0 || state.depthBiasSlope != 0;
     reader.flag("depthBiasEnabled", biased);
@@ -96,18 +75,18 @@ void readRasterizer(const StateReader& reader, RenderState& state) {
 void readDepth(const StateReader& reader, RenderState& state) {
     reader.flag("depthTest", state.depthTest);
     reader.flag("depthWrite", state.depthWrite);
-    reader.word("depthFunc", kCompareOps, state.depthFunc);
+    reader.word("depthFunc", kCompareNames, state.depthFunc);
 }
 
 void readBlendTarget(const Value& item, BlendTarget& target, Problems& problems) {
     const StateReader reader(item, problems);
     reader.flag("blend", target.blend);
-    reader.word("blendSrc", kBlendFactors, target.src);
-    reader.word("blendDst", kBlendFactors, target.dst);
-    reader.word("blendEq", kBlendOps, target.op);
-    reader.word("blendSrcAlpha", kBlendFactors, target.srcAlpha);
-    reader.word("blendDstAlpha", kBlendFactors, target.dstAlpha);
-    reader.word("blendAlphaEq", kBlendOps, target.alphaOp);
+    reader.word("blendSrc", kBlendFactorNames, target.src);
+    reader.word("blendDst", kBlendFactorNames, target.dst);
+    reader.word("blendEq", kBlendOpNames, target.op);
+    reader.word("blendSrcAlpha", kBlendFactorNames, target.srcAlpha);
+    reader.word("blendDstAlpha", kBlendFactorNames, target.dstAlpha);
+    reader.word("blendAlphaEq", kBlendOpNames, target.alphaOp);
     const Value* mask = item.find("blendColorMask");
     if (mask && mask->isNumber()) target.colorMask = static_cast<std::uint8_t>(static_cast<int>(mask->number()) & 0xf);
 }
@@ -121,7 +100,8 @@ const Value* objectIn(const Value& states, const char* key) {
 
 RenderState withStates(RenderState state, const Value& states, Problems& problems) {
     if (!states.isObject()) return state;
-    if (const auto primitive = StateReader(states, problems).index("primitive", kPrimitives))
+    if (const auto primitive =
+            StateReader(states, problems).index("primitive", std::span(kTopologyNames).first(std::size(kTopologies))))
         state.topology = kTopologies[*primitive];
     if (const Value* raster = objectIn(states, "rasterizerState"))
         readRasterizer(StateReader(*raster, problems), state);

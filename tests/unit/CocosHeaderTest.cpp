@@ -130,6 +130,8 @@ TEST_F(CocosHeader, EnumsInAnyCaseOrAsNumbers) {
     EXPECT_EQ(state.blendTargets[0].op, BlendOp::RevSub);
     EXPECT_EQ(state.blendTargets[0].colorMask, 7);
     EXPECT_EQ(state.blendTargets[1].colorMask, 0);
+    // fill, point, line: not the order of our enum.
+    EXPECT_EQ(pass("      rasterizerState: { polygonMode: 1 }\n").state.polygonMode, PolygonMode::Point);
     EXPECT_EQ(state.blendTargets[2].colorMask, 7);
     EXPECT_EQ(pass("      rasterizerState: { cullMode: 0 }\n").state.cullMode, CullMode::None);
     read("  techniques:\n  - passes:\n    - vert: vs\n      frag: fs\n      rasterizerState: { cullMode: sideways }\n");
