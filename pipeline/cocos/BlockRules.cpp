@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <set>
+
 #include "cocos/GlslTypes.h"
 
 namespace crevice::cocos {
@@ -54,6 +56,21 @@ void checkBlock(const InterfaceDeclaration& block, Problems& problems) {
         offset = place + extent.bytes;
         tight += extent.tight;
     }
+}
+
+std::int64_t uniformVectors(const StageInterface& stage) {
+    std::int64_t sum = 0;
+    std::set<std::string_view> counted;
+    for (const InterfaceDeclaration& block : stage.declarations) {
+        if (block.kind != InterfaceKind::Block || !counted.insert(block.name).second) continue;
+        for (const InterfaceMember& member : block.members) {
+            const GlslType* type = findGlslType(member.type);
+            if (type == nullptr || !member.size.certain) continue;
+            const std::int64_t bytes = std::int64_t(type->components) * type->componentBytes * type->columns;
+            sum += (bytes + 15) / 16 * member.size.count;
+        }
+    }
+    return sum;
 }
 
 void reportLooseUniform(const SourceLoc& where, Problems& problems) {

@@ -28,12 +28,7 @@ ChunkLibrary::Found ChunkLibrary::find(const EffectAsset& effect, const std::str
     if (name.starts_with('/') || name.find('\0') != std::string::npos) {
         found.help = "names of chunks are relative";
     } else if (name.starts_with('.')) {
-        const fs::path path = (folder / (name + ".chunk")).lexically_normal();
-        if (mayRead(path, effect))
-            found.source = readBeside(name, folder);
-        else
-            found.help = "the path leads out of the project, the engine and the chunk folders";
-        if (found.source == nullptr && found.help.empty()) found.help = fmt::format("looked for {}", path.string());
+        found = findRelative(effect, name, folder);
     } else if (const auto* entry = index().find(name)) {
         found.source = readFile(entry->path, name);
     } else if (const SourceText* beside = readBeside(name, folder); beside && mayRead(beside->file, effect)) {
@@ -59,6 +54,28 @@ ChunkLibrary::Found ChunkLibrary::find(const EffectAsset& effect, const std::str
 }
 
 bool ChunkLibrary::isOfEngine(const SourceText& source) const { return isInside(source.file, roots_.engine); }
+
+/// A name with a dot in front. It is meant from the including file; Cocos' own effects also write it as seen from the
+/// chunk folder (`../effects/advanced/common-functions`) or from a folder the file once stood in.
+ChunkLibrary::Found ChunkLibrary::findRelative(const EffectAsset& effect, const std::string& name,
+                                               const fs::path& folder) {
+    Found found;
+    const fs::path path = (folder / (name + ".chunk")).lexically_normal();
+    if (!mayRead(path, effect))
+        found.help = "the path leads out of the project, the engine and the chunk folders";
+    else if ((found.source = readBeside(name, folder)) == nullptr)
+        found.help = fmt::format("looked for {}", path.string());
+    for (const fs::path& chunks : roots_.chunkFolders()) {
+        if (found.source != nullptr) return found;
+        if (mayRead((chunks / (name + ".chunk")).lexically_normal(), effect)) found.source = readBeside(name, chunks);
+    }
+    if (found.source != nullptr) return found;
+    std::string_view tail = name;
+    while (tail.starts_with("./") || tail.starts_with("../")) tail.remove_prefix(tail.find('/') + 1);
+    const auto ending = index().endingWith(tail);
+    if (ending.size() == 1) found.source = readFile(ending.front()->path, name);
+    return found;
+}
 
 /// Files of the author's own folders only: an effect may not read what it was not given.
 bool ChunkLibrary::mayRead(const fs::path& path, const EffectAsset& effect) const {

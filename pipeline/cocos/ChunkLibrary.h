@@ -28,15 +28,16 @@ public:
         std::string help;  ///< Why there is none: what was looked for, or what is ambiguous.
     };
     /// `name` as it stands between the brackets, in a text that lies in `folder`:
-    /// 1. a CCProgram of the effect; 2. with a '.' in front: relative to the including file; 3. below a chunk folder;
-    /// 4. relative to the including file; 5. the one chunk whose path ends with the name. Throws Error for a file that
-    /// cannot be read.
+    /// 1. a CCProgram of the effect; 2. with a '.' in front: relative to the including file, else to a chunk folder,
+    /// else rule 5 without the dots; 3. below a chunk folder; 4. relative to the including file; 5. the one chunk whose
+    /// path ends with the name. Throws Error for a file that cannot be read.
     Found find(const EffectAsset& effect, const std::string& name, const std::filesystem::path& folder);
 
     /// True for a file of the engine: its mistakes are not the author's.
     bool isOfEngine(const SourceText& source) const;
 
 private:
+    Found findRelative(const EffectAsset& effect, const std::string& name, const std::filesystem::path& folder);
     const SourceText* readFile(const std::filesystem::path& path, const std::string& name);
     const SourceText* readProgram(const EffectAsset& effect, const std::string& name);
     const SourceText* readBeside(const std::string& name, const std::filesystem::path& folder);

@@ -3,8 +3,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <deque>
 
+#include "cocos/BlockRules.h"
 #include "cocos/ChunkLibrary.h"
 #include "cocos/Fingerprint.h"
 #include "cocos/Flattener.h"
@@ -33,6 +35,21 @@ void appendEntry(StageText& text, const std::string& entry, const SourceLoc& whe
     text.flat.files.push_back(where.file);
     text.flat.lines.push_back({static_cast<std::uint32_t>(text.flat.files.size() - 1), where.line});
     text.conditionOf.push_back(0);
+}
+
+/// A text that asks how many registers its uniforms take gets the number that Cocos' compiler counts.
+void addUniformVectors(const std::vector<StageText>& texts, Defines& values) {
+    constexpr std::string_view kAsked = "CC_EFFECT_USED_";
+    const bool asked = std::any_of(texts.begin(), texts.end(), [&](const StageText& text) {
+        return text.flat.text.find(kAsked) != std::string::npos;
+    });
+    if (!asked) return;
+    Problems said;  // when the stages are numbered
+    for (const StageText& text : texts) {
+        const char* stage = text.stage == kVertexBit ? "VERTEX" : text.stage == kFragmentBit ? "FRAGMENT" : "COMPUTE";
+        values.emplace(fmt::format("{}{}_UNIFORM_VECTORS", kAsked, stage),
+                       std::to_string(uniformVectors(readInterface(text, said))));
+    }
 }
 
 }  // namespace
@@ -138,6 +155,7 @@ std::vector<StageSource> CocosEffects::stages(const EffectAsset& effect, const E
     for (const auto& [name, value] : values)
         if (value.find('\n') != std::string::npos)
             problems.error(request.where, fmt::format("the value of define '{}' has several lines", name));
+    addUniformVectors(texts, values);
     NumberingOptions numbering = state_->options.numbering;
     numbering.rebindByName = numbering.rebindByName && request.rebindLiterals;
     numberStages(texts, bindings, numbering, problems);

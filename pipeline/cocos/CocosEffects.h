@@ -43,8 +43,9 @@ private:
     std::unique_ptr<State> state_;
 };
 
-/// The macros of all stages together: each name once, in order of first occurrence, with the values they have when
-/// nobody sets them.
+/// The macros of all stages together: each name once, in order of first occurrence, as the text has them.
+std::vector<StageMacro> joinMacros(const std::vector<StageText>& stages);
+/// The same with the values they have when nobody sets them.
 std::vector<StageMacro> mergeMacros(const std::vector<StageText>& stages);
 
 /// The lines in front of a stage's text: version, extensions, engine constants, and `#define NAME value` for every

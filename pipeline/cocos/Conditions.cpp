@@ -9,6 +9,7 @@ namespace crevice::cocos {
 namespace {
 
 constexpr int kMaxDepth = 200;
+constexpr int kEquality = 6, kOrder = 7;  ///< Precedences of comparisons.
 constexpr std::string_view kOperators[] = {"||", "&&", "==", "!=", "<=", ">=", "<<", ">>", "<", ">", "+", "-",
                                            "*",  "/",  "%",  "&",  "|",  "^",  "!",  "~",  "(", ")", ","};
 
@@ -18,8 +19,8 @@ int precedenceOf(std::string_view op) {
     if (op == "|") return 3;
     if (op == "^") return 4;
     if (op == "&") return 5;
-    if (op == "==" || op == "!=") return 6;
-    if (op == "<" || op == ">" || op == "<=" || op == ">=") return 7;
+    if (op == "==" || op == "!=") return kEquality;
+    if (op == "<" || op == ">" || op == "<=" || op == ">=") return kOrder;
     if (op == "<<" || op == ">>") return 8;
     if (op == "+" || op == "-") return 9;
     if (op == "*" || op == "/" || op == "%") return 10;
@@ -69,6 +70,7 @@ public:
         Condition result = readBinary(1);
         if (failed_ || !word_.empty()) result = {};
         result.tooDeep = tooDeep_;
+        if (!failed_) result.compared = std::move(compared_);
         return result;
     }
 
@@ -93,16 +95,31 @@ private:
 
     Condition readBinary(int level) {
         if (++depth_ > kMaxDepth) failed_ = tooDeep_ = true;
+        const std::string_view before = word_;
         Condition left = failed_ ? Condition{} : readUnary();
         while (!failed_) {
             const std::string_view op = word_;
             const int precedence = precedenceOf(op);
             if (precedence < level || precedence == 0) break;
+            if (precedence == kEquality || precedence == kOrder) noteComparison(before, op);
             advance();
             left = combine(op, left, readBinary(precedence + 1));
         }
         --depth_;
         return left;
+    }
+
+    /// A name alone on the left of an operator, which is the present word, or on its right.
+    void noteComparison(std::string_view left, std::string_view op) {
+        const auto gap = [](const char* from, const char* to) {
+            return trimBlank(std::string_view(from, static_cast<std::size_t>(to - from))).empty();
+        };
+        const std::string_view right = leadingName(trimBlank(text_));
+        for (const std::string_view name : {left, right}) {
+            if (leadingName(name).empty() || name == "defined" || name == "__VERSION__") continue;
+            const bool alone = name.data() == right.data() || gap(name.data() + name.size(), op.data());
+            if (alone && lookup_(name, true).outside) compared_.emplace_back(name);
+        }
     }
 
     static Condition combine(std::string_view op, const Condition& a, const Condition& b) {
@@ -218,6 +235,7 @@ private:
     const NameLookup& lookup_;
     int depth_ = 0;
     bool failed_ = false, tooDeep_ = false;
+    std::vector<std::string> compared_;
 };
 
 }  // namespace

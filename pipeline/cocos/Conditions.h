@@ -11,10 +11,11 @@ namespace crevice::cocos {
 
 /// A condition, or a part of one.
 struct Condition {
-    std::optional<long long> value;    ///< When it does not depend on any macro from outside.
-    std::vector<std::string> needs;    ///< All of these must hold: "USE_X", "!USE_Y". Only simple names are kept.
-    bool tooDeep = false;              ///< Brackets or signs nest deeper than any author writes.
-    std::vector<std::string> negated;  ///< The same for the condition's opposite; empty when nothing simple says it.
+    std::optional<long long> value;     ///< When it does not depend on any macro from outside.
+    std::vector<std::string> needs;     ///< All of these must hold: "USE_X", "!USE_Y". Only simple names are kept.
+    bool tooDeep = false;               ///< Brackets or signs nest deeper than any author writes.
+    std::vector<std::string> negated;   ///< The same for the condition's opposite; empty when nothing simple says it.
+    std::vector<std::string> compared;  ///< Macros from outside that == < > and the like compare: they are numbers.
 };
 
 /// What a name in a condition stands for.

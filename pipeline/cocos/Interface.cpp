@@ -37,7 +37,7 @@ public:
         result_.stage = stage_.stage;
         constants_.addText(tokens_);
         for (const StageMacro& macro : stage_.macros)
-            if (macro.info.range) constants_.addLimit(macro.info.name, macro.info.range->second);
+            if (macro.info.range && !macro.inferred) constants_.addLimit(macro.info.name, macro.info.range->second);
         for (const GlslStatement& statement : findInterfaceStatements(tokens_)) {
             addSubpassInputs(tokens_[statement.storage].line);
             if (statement.storage == statement.end)

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "cocos/BlockRules.h"
+#include "cocos/CocosEffects.h"
 #include "cocos/GlslTypes.h"
 #include "cocos/Numbering.h"
 
@@ -128,22 +130,10 @@ private:
         return list;
     }
 
-    /// vec4 registers that a stage's blocks take, of all branches; arrays whose size a macro decides do not count.
     std::int64_t vectorsOf(ShaderStageBits stage) const {
         std::int64_t sum = 0;
-        for (const StageInterface& interface : interfaces_) {
-            if (interface.stage != stage) continue;
-            std::map<std::string_view, bool> counted;
-            for (const InterfaceDeclaration& block : interface.declarations) {
-                if (block.kind != InterfaceKind::Block || !counted.emplace(block.name, true).second) continue;
-                for (const InterfaceMember& member : block.members) {
-                    const GlslType* type = findGlslType(member.type);
-                    if (type == nullptr || !member.size.certain) continue;
-                    const std::int64_t bytes = std::int64_t(type->components) * type->componentBytes * type->columns;
-                    sum += (bytes + 15) / 16 * member.size.count;
-                }
-            }
-        }
+        for (const StageInterface& interface : interfaces_)
+            if (interface.stage == stage) sum += uniformVectors(interface);
         return sum;
     }
 
@@ -163,10 +153,7 @@ private:
 
     Value defines() const {
         Value list = Value::makeArray();
-        std::map<std::string_view, bool> seen;
-        for (const StageText& stage : stages_)
-            for (const StageMacro& macro : stage.macros)
-                if (seen.emplace(macro.info.name, true).second) append(list, define(macro.info));
+        for (const StageMacro& macro : joinMacros(stages_)) append(list, define(macro.info));
         return list;
     }
 

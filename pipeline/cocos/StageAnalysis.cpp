@@ -7,6 +7,7 @@
 #include <charconv>
 #include <unordered_map>
 #include <unordered_set>
+#include <utility>
 
 #include "cocos/Conditions.h"
 #include "cocos/EngineMacros.h"
@@ -142,6 +143,9 @@ private:
             if (condition.tooDeep)
                 problems_.error({out_.flat.files[place_->origin.file], place_->origin.line},
                                 "the condition nests brackets deeper than 200", "write it with fewer brackets");
+            for (const std::string& name : condition.compared)
+                if (const auto it = macroIndex_.find(name); it != macroIndex_.end())
+                    inferNumber(out_.macros[it->second]);
             return condition;
         }
         const std::string name(leadingName(line.rest));
@@ -216,7 +220,8 @@ private:
         }
     }
 
-    /// The first description of a macro holds; those of names that the text defines itself say nothing.
+    /// The first description of a macro holds; those of names that the text defines itself say nothing. A description
+    /// without a tag leaves a number what its comparisons make of it.
     void describe(const DefineInfo& meta) {
         if (definitions_.contains(meta.name) || inText_.contains(meta.name) || engineConstants().contains(meta.name))
             return;
@@ -225,6 +230,8 @@ private:
         const bool tested = info->tested;
         *info = meta;
         info->tested = tested;
+        StageMacro& macro = out_.macros[macroIndex_.find(meta.name)->second];
+        if (std::exchange(macro.inferred, false)) inferNumber(macro);
     }
 
     static std::vector<std::string> needsOf(const Frame& frame) {
@@ -340,6 +347,13 @@ private:
 };
 
 }  // namespace
+
+void inferNumber(StageMacro& macro) {
+    if (macro.info.type != DefineType::Bool) return;
+    macro.info.type = DefineType::Number;
+    macro.info.range = {0, 3};
+    macro.inferred = true;
+}
 
 StageText analyzeStage(ShaderStageBits stage, Flattened flattened, Problems& problems) {
     StageText out;

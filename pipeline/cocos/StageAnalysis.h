@@ -12,4 +12,7 @@ namespace crevice::cocos {
 /// expand in bounded memory.
 StageText analyzeStage(ShaderStageBits stage, Flattened flattened, Problems& problems);
 
+/// A macro that is compared and has no tag is a number from 0 to 3 for Cocos' compiler; others stay as they are.
+void inferNumber(StageMacro& macro);
+
 }  // namespace crevice::cocos

@@ -6,6 +6,7 @@
 
 #include "cocos/CocosEffects.h"
 #include "cocos/EngineMacros.h"
+#include "cocos/StageAnalysis.h"
 
 namespace crevice::cocos {
 namespace {
@@ -30,25 +31,37 @@ bool defines(const StageText& stage, const std::string& name) {
     return std::binary_search(stage.defined.begin(), stage.defined.end(), name);
 }
 
+/// What a second stage knows of a macro: the first description holds, and what one of them compares is a number.
+void join(StageMacro& macro, const StageMacro& other) {
+    const bool tested = macro.info.tested || other.info.tested;
+    const bool inferred = macro.inferred || other.inferred;
+    if (!macro.info.described && other.info.described) {
+        macro.info = other.info;
+        macro.inferred = other.inferred;
+    }
+    macro.info.tested = tested;
+    if (inferred) inferNumber(macro);
+}
+
 }  // namespace
 
-std::vector<StageMacro> mergeMacros(const std::vector<StageText>& stages) {
-    std::vector<StageMacro> merged;
+std::vector<StageMacro> joinMacros(const std::vector<StageText>& stages) {
+    std::vector<StageMacro> joined;
     for (const StageText& stage : stages) {
         for (const StageMacro& macro : stage.macros) {
-            const auto same = std::find_if(merged.begin(), merged.end(),
+            const auto same = std::find_if(joined.begin(), joined.end(),
                                            [&](const StageMacro& other) { return other.info.name == macro.info.name; });
-            if (same == merged.end()) {
-                merged.push_back(macro);
-            } else if (!same->info.described && macro.info.described) {
-                const bool tested = same->info.tested;
-                same->info = macro.info;
-                same->info.tested = tested || macro.info.tested;
-            } else {
-                same->info.tested = same->info.tested || macro.info.tested;
-            }
+            if (same == joined.end())
+                joined.push_back(macro);
+            else
+                join(*same, macro);
         }
     }
+    return joined;
+}
+
+std::vector<StageMacro> mergeMacros(const std::vector<StageText>& stages) {
+    std::vector<StageMacro> merged = joinMacros(stages);
     for (StageMacro& macro : merged)
         if (const auto value = engineDefault(macro.info.name); !value.empty()) macro.info.defaultValue = value;
     return merged;

@@ -28,6 +28,7 @@ struct PragmaMark {
 struct StageMacro {
     DefineInfo info;
     std::vector<std::string> conditions;  ///< Of its first occurrence: "USE_X", "!USE_Y".
+    bool inferred = false;  ///< A number with Cocos' usual range because a condition compares it; no pragma says so.
 };
 
 /// One stage. `flat.text` is GLSL with preprocessor lines, whose pragmas (these), includes and comments are gone;

@@ -36,6 +36,18 @@ TEST(CocosInclude, DotIsRelativeToTheIncludingFile) {
     EXPECT_THAT(words(bench.fragmentText().flat.text), ElementsAre("float b;", "float c;"));
 }
 
+TEST(CocosInclude, DotsMayBeMeantFromAChunkFolderOrAFormerPlace) {
+    CocosBench bench;
+    bench.folder.write("e/editor/assets/effects/advanced/tools.chunk", "float tools;\n");
+    bench.folder.write("e/editor/assets/lib/other.chunk", "float other;\n");
+    bench.engineChunk("near", "float wrong;\n");
+    bench.folder.write("p/assets/effects/near.chunk", "float near;\n");
+    bench.folder.write("p/assets/effects/deep/er/a.chunk",
+                       "#include <../effects/advanced/tools>\n#include <./lib/other>\n#include <../../near>\n");
+    bench.fragment("#include <./deep/er/a>\n");
+    EXPECT_THAT(words(bench.fragmentText().flat.text), ElementsAre("float tools;", "float other;", "float near;"));
+}
+
 TEST(CocosInclude, ChunkFoldersComeBeforeNeighboursAndProjectBeforeEngine) {
     CocosBench bench;
     bench.engineChunk("builtin/uniforms/a", "float engineA;\n");

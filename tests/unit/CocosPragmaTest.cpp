@@ -78,6 +78,63 @@ TEST(CocosPragma, MacrosAreFoundInOrderOfFirstOccurrence) {
     EXPECT_THAT(merged, ElementsAre("USE_B", "USE_C", "USE_D", "USE_F", "USE_E"));
 }
 
+TEST(CocosPragma, WhatIsComparedIsANumberFromZeroToThree) {
+    CocosBench bench;
+    bench.fragment(
+        "#pragma define FORMAT_RGBA8 1\n#if FORMAT == FORMAT_RGBA8\n#endif\n"
+        "#if USE_A && (LEVEL > 2 || 1 <= STEPS)\n#elif !FLAG && OTHER != 2\n#endif\n"
+        "#pragma define-meta BARE\n#if BARE == 1\n#endif\n#if LATE == 1\n#endif\n#pragma define-meta LATE\n"
+        "#pragma define-meta TAGGED range([0, 8])\n#if TAGGED == 5\n#endif\n"
+        "#pragma define-meta PICK options([a, b])\n#if PICK == 1\n#endif\n"
+        "#if TWICE + 1 == 2\n#endif\n#if BOOL\n#elif defined(ONLY)\n#endif\n");
+    const StageText text = bench.fragmentText();
+    for (const char* name : {"FORMAT", "LEVEL", "STEPS", "OTHER", "BARE", "LATE"}) {
+        const DefineInfo& info = macroOf(text, name).info;
+        EXPECT_EQ(info.type, DefineType::Number) << name;
+        EXPECT_EQ(info.range, (std::pair{0, 3})) << name;
+        EXPECT_EQ(info.defaultValue, "0") << name;
+    }
+    EXPECT_EQ(macroOf(text, "TAGGED").info.range, (std::pair{0, 8}));
+    EXPECT_EQ(macroOf(text, "PICK").info.type, DefineType::String);
+    for (const char* name : {"USE_A", "FLAG", "TWICE", "BOOL", "ONLY"})
+        EXPECT_EQ(macroOf(text, name).info.type, DefineType::Bool) << name;
+}
+
+TEST(CocosPragma, StagesKnowOfAMacroTogether) {
+    CocosBench bench;
+    bench.effect("#if MODE\n#endif\n#if COUNT\n#endif\nvoid main() { gl_Position = vec4(0.0); }\n",
+                 "#if MODE == 2\n#endif\n#pragma define-meta COUNT range([2, 8])\n"
+                 "layout(location = 0) out vec4 c; void main() { c = vec4(float(MODE), float(COUNT), 0.0, 1.0); }\n");
+    Problems problems;
+    const std::vector<StageMacro> joined = joinMacros(bench.flatten(problems));
+    ASSERT_EQ(joined.size(), 2u);
+    EXPECT_EQ(joined[0].info.type, DefineType::Number);
+    EXPECT_EQ(joined[0].info.range, (std::pair{0, 3}));
+    EXPECT_EQ(joined[1].info.range, (std::pair{2, 8}));
+}
+
+TEST(CocosPragma, UsedUniformVectorsAreCounted) {
+    CocosBench bench;
+    // 4 + 1 + 1 registers in the vertex stage, 2 in the fragment stage; an array of a macro's size does not count.
+    bench.effect(
+        "#define UNITS (CC_DEVICE_MAX_VERTEX_UNIFORM_VECTORS - CC_EFFECT_USED_VERTEX_UNIFORM_VECTORS) / 5 * 5\n"
+        "uniform A { mat4 m; vec4 v; };\n#if USE_B\nuniform B { float f; };\n#endif\n"
+        "#pragma builtin(local)\nlayout(set = 2, binding = 0) uniform L { vec4 data[UNITS]; };\n"
+        "void main() { gl_Position = m * v + data[1014]; }\n",
+        "uniform C { vec4 c; vec2 d; };\nlayout(location = 0) out vec4 o;\n"
+        "void main() { o = c * float(CC_EFFECT_USED_FRAGMENT_UNIFORM_VECTORS) ; }\n");
+    EXPECT_EQ(bench.compileError(), "");
+    CocosEffects effects(bench.roots());
+    Problems problems;
+    const EffectAsset asset = bench.parse(problems);
+    const auto sources = effects.stages(asset, asset.techniques[0].passes[0], VariantRequest{}, {}, problems);
+    ASSERT_EQ(sources.size(), 2u);
+    for (const StageSource& source : sources) {
+        EXPECT_THAT(source.head, HasSubstr("#define CC_EFFECT_USED_VERTEX_UNIFORM_VECTORS 6\n"));
+        EXPECT_THAT(source.head, HasSubstr("#define CC_EFFECT_USED_FRAGMENT_UNIFORM_VECTORS 2\n"));
+    }
+}
+
 TEST(CocosPragma, AliasesLeadToTheMacrosBehindThem) {
     CocosBench bench;
     bench.fragment(
