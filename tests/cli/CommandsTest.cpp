@@ -145,7 +145,8 @@ TEST_F(CommandsTest, EffectsCompileReadsCocosFolders) {
           "CCEffect %{\n  techniques:\n  - passes: [ { vert: vs:vert, frag: fs:frag } ]\n}%\n"
           "CCProgram vs %{\n  #include <common>\n  #if USE_PLACE\n    in vec4 a_place;\n  #endif\n"
           "  vec4 vert () { return half4(); }\n}%\n"
-          "CCProgram fs %{\n  uniform sampler2D map;\n  vec4 frag () {\n  #if USE_PLACE\n    return v_missing;\n"
+          "CCProgram fs %{\n  uniform sampler2D map;\n  #if USE_OTHER\n    in vec4 v_missing;\n  #endif\n  vec4 frag "
+          "() {\n  #if USE_PLACE\n    return v_missing;\n"
           "  #endif\n    return texture(map, vec2(0.5)); }\n}%\n");
     const Outcome good = run("effects compile engine/editor/assets/effects --engine engine --define UNKNOWN=1");
     EXPECT_EQ(good.code, 0) << good.err;
@@ -153,8 +154,12 @@ TEST_F(CommandsTest, EffectsCompileReadsCocosFolders) {
     const Outcome bad = run("effects compile engine/editor/assets/effects --engine engine --define USE_PLACE=1");
     EXPECT_EQ(bad.code, 1);
     EXPECT_TRUE(has(bad.out, "FAILED ")) << bad.out;
-    EXPECT_TRUE(has(bad.out, ": not declared: v_missing\n")) << bad.out;
-    EXPECT_TRUE(has(bad.err, "good.effect:16:")) << bad.err;
+    EXPECT_TRUE(has(bad.out, ": not declared: v_missing with USE_PLACE (but good.effect:15 with USE_OTHER)\n"))
+        << bad.out;
+    EXPECT_TRUE(has(bad.err, "good.effect:19:")) << bad.err;
+    const json missing = json::parse(run("effects compile good --engine engine --define USE_PLACE=1 --json").out);
+    EXPECT_EQ(missing["passes"][0]["undeclared"][0]["name"], "v_missing");
+    EXPECT_EQ(missing["passes"][0]["undeclared"][0]["with"], json::array({"USE_PLACE"}));
     const json all = json::parse(run("effects compile good --engine engine --json -q").out);
     EXPECT_EQ(all["compiled"], 1);
     const json& shader = all["effects"][0]["shaders"][0];

@@ -41,20 +41,15 @@ Json passJson(const VariantRequest& request, const EffectPass& pass, bool ok) {
             {"phase", pass.phase},      {"defines", request.defines},     {"ok", ok}};
 }
 
-/// Names that the compiler found no declaration of, in order of their first mention.
-std::vector<std::string> undeclared(const Error& error) {
-    std::vector<std::string> names;
-    for (const Problem& problem : error.problems()) {
-        const std::string& message = problem.message;
-        const std::size_t begin = message.find('\'');
-        const std::size_t end = begin == std::string::npos ? begin : message.find('\'', begin + 1);
-        const bool missing = message.find("undeclared identifier") != std::string::npos ||
-                             message.find("no matching overloaded function") != std::string::npos;
-        if (!missing || end == std::string::npos) continue;
-        std::string name = message.substr(begin + 1, end - begin - 1);
-        if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(std::move(name));
-    }
-    return names;
+Json missingJson(const std::vector<MissingName>& missing) {
+    Json list = Json::array();
+    for (const MissingName& name : missing)
+        list.push_back({{"name", name.name},
+                        {"file", name.where.file},
+                        {"line", name.where.line},
+                        {"with", name.usedWith},
+                        {"declared", name.otherwise}});
+    return list;
 }
 
 }  // namespace
@@ -80,19 +75,19 @@ void EffectReport::success(const VariantRequest& request, const EffectPass& pass
     line(request, pass, true, fmt::format(": {} bytes of SPIR-V", size));
 }
 
-void EffectReport::failure(const VariantRequest& request, const EffectPass& pass, const Error& error) {
+void EffectReport::failure(const VariantRequest& request, const EffectPass& pass, const Error& error,
+                           const std::vector<MissingName>& missing) {
     ++failed_;
-    const std::vector<std::string> missing = undeclared(error);
     if (json_) {
         Json result = passJson(request, pass, false);
         result["message"] = formatError(error);
-        if (!missing.empty()) result["undeclared"] = missing;
+        if (!missing.empty()) result["undeclared"] = missingJson(missing);
         passes_.push_back(std::move(result));
         return;
     }
     log_.write(LogLevel::Error, fmt::format("'{}' does not compile", request.effect));
     std::fprintf(stderr, "%s\n", formatError(error).c_str());
-    line(request, pass, false, missing.empty() ? "" : ": not declared: " + join(missing));
+    line(request, pass, false, missing.empty() ? "" : ": not declared: " + missingText(missing));
 }
 
 void EffectReport::unreadable(const std::string& effect, const std::string& message) {

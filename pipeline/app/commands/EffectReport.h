@@ -3,6 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "app/commands/MissingNames.h"
 #include "core/Document.h"
 #include "core/Log.h"
 #include "effect/EffectLibrary.h"
@@ -15,7 +16,8 @@ public:
 
     void success(const VariantRequest& request, const EffectPass& pass, const EffectVariant& variant);
     /// Names the identifiers that the pass' source does not declare with these macros.
-    void failure(const VariantRequest& request, const EffectPass& pass, const Error& error);
+    void failure(const VariantRequest& request, const EffectPass& pass, const Error& error,
+                 const std::vector<MissingName>& missing = {});
     /// An effect that could not even be taken apart.
     void unreadable(const std::string& effect, const std::string& message);
     /// One effect in Cocos' terms.

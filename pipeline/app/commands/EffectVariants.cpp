@@ -5,21 +5,24 @@ namespace crevice {
 namespace {
 
 struct FreeMacro {
-    std::string name;
-    std::vector<std::string> values;
+    std::string name, usual;
+    std::vector<std::string> values;  ///< To combine.
+    std::vector<std::string> alone;   ///< To try one by one.
 };
 
-std::vector<std::string> valuesOf(const DefineInfo& info) {
-    switch (info.type) {
-        case DefineType::Bool:
-            return {"0", "1"};
-        case DefineType::Number:
-            if (!info.range) return {};
-            return {std::to_string(info.range->first), std::to_string(info.range->second)};
-        case DefineType::String:
-            return info.options;
+FreeMacro freeMacro(const DefineInfo& info) {
+    FreeMacro macro{info.name, info.defaultValue, {}, {}};
+    if (info.type == DefineType::Bool) macro.values = {"0", "1"};
+    if (info.type == DefineType::String) macro.values = info.options;
+    if (info.type == DefineType::Number && info.range)
+        macro.values = {std::to_string(info.range->first), std::to_string(info.range->second)};
+    macro.alone = macro.values;
+    if (info.type == DefineType::Number && info.range && info.range->second - info.range->first < kMaxValues) {
+        macro.alone.clear();
+        for (int value = info.range->first; value <= info.range->second; ++value)
+            macro.alone.push_back(std::to_string(value));
     }
-    return {};
+    return macro;
 }
 
 std::vector<Defines> combineAll(const std::vector<FreeMacro>& macros, const Defines& fixed) {
@@ -40,7 +43,8 @@ std::vector<Defines> combineAll(const std::vector<FreeMacro>& macros, const Defi
 std::vector<Defines> tryEachAlone(const std::vector<FreeMacro>& macros, const Defines& fixed) {
     std::vector<Defines> variants{fixed};
     for (const FreeMacro& macro : macros) {
-        for (const std::string& value : macro.values) {
+        for (const std::string& value : macro.alone) {
+            if (value == macro.usual) continue;
             variants.push_back(fixed);
             variants.back()[macro.name] = value;
         }
@@ -50,16 +54,17 @@ std::vector<Defines> tryEachAlone(const std::vector<FreeMacro>& macros, const De
 
 }  // namespace
 
-std::vector<Defines> enumerateVariants(const std::vector<DefineInfo>& infos, const Defines& fixed) {
+VariantList enumerateVariants(const std::vector<DefineInfo>& infos, const Defines& fixed) {
     std::vector<FreeMacro> macros;
     std::size_t combinations = 1;
     for (const DefineInfo& info : infos) {
-        std::vector<std::string> values = valuesOf(info);
-        if (values.empty() || fixed.contains(info.name)) continue;
-        if (combinations <= kMaxCombinations) combinations *= values.size();
-        macros.push_back({info.name, std::move(values)});
+        FreeMacro macro = freeMacro(info);
+        if (macro.values.empty() || fixed.contains(info.name)) continue;
+        if (combinations <= kMaxCombinations) combinations *= macro.values.size();
+        macros.push_back(std::move(macro));
     }
-    return combinations <= kMaxCombinations ? combineAll(macros, fixed) : tryEachAlone(macros, fixed);
+    const bool alone = combinations > kMaxCombinations;
+    return {alone ? tryEachAlone(macros, fixed) : combineAll(macros, fixed), macros.size(), alone};
 }
 
 }  // namespace crevice

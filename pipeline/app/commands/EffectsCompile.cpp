@@ -75,6 +75,8 @@ private:
     void compileVariant(const VariantRequest& request, const EffectPass& pass);
     void reflect(const EffectAsset& effect);
     void checkDefines();
+    std::vector<Defines> variantsOf(const VariantRequest& request, const std::vector<DefineInfo>& infos,
+                                    const Defines& fixed) const;
     Defines definesFor(const std::vector<DefineInfo>& infos) const;
 
     const CompileOptions& options_;
@@ -124,7 +126,7 @@ void CompileRun::compilePass(const std::string& name, const EffectPass& pass, st
         try {
             const std::vector<DefineInfo> infos = library_.discoverDefines(name, technique, index);
             const Defines fixed = definesFor(infos);
-            variants = options_.allVariants ? enumerateVariants(infos, fixed) : std::vector<Defines>{fixed};
+            variants = options_.allVariants ? variantsOf(request, infos, fixed) : std::vector<Defines>{fixed};
         } catch (const Error& error) {
             report_.failure(request, pass, error);
             return;
@@ -136,6 +138,18 @@ void CompileRun::compilePass(const std::string& name, const EffectPass& pass, st
     }
 }
 
+std::vector<Defines> CompileRun::variantsOf(const VariantRequest& request, const std::vector<DefineInfo>& infos,
+                                            const Defines& fixed) const {
+    VariantList list = enumerateVariants(infos, fixed);
+    if (list.alone)
+        log_.write(LogLevel::Note,
+                   fmt::format("{} technique {} pass {}: {} macros have more than {} combinations: each value is tried "
+                               "alone, {} variants",
+                               request.effect, request.technique, request.pass, list.macros, kMaxCombinations,
+                               list.variants.size()));
+    return std::move(list.variants);
+}
+
 void CompileRun::compileVariant(const VariantRequest& request, const EffectPass& pass) {
     try {
         if (options_.text) {
@@ -144,7 +158,12 @@ void CompileRun::compileVariant(const VariantRequest& request, const EffectPass&
         }
         report_.success(request, pass, library_.get(request, bindings_));
     } catch (const Error& error) {
-        report_.failure(request, pass, error);
+        std::vector<MissingName> missing = missingNames(error);
+        if (cocos_ != nullptr && !missing.empty()) {
+            Problems said;  // by the attempt to compile
+            explainMissing(missing, cocos_->flatten(library_.asset(request.effect), pass, said));
+        }
+        report_.failure(request, pass, error, missing);
     }
 }
 
@@ -193,7 +212,8 @@ void addEffectsCompileCommand(CLI::App& effects, Action& action) {
     command->add_option("--define", options->defines, "Value of a macro (repeatable)")
         ->type_name("NAME=VALUE")
         ->allow_extra_args(false);
-    command->add_flag("--all-variants", options->allVariants, "Every combination of macros, or each alone when many");
+    command->add_flag("--all-variants", options->allVariants,
+                      "Every combination of macros; above 128 each value alone");
     command->add_flag("--json", options->json,
                       "Results as JSON: sizes, resources, messages; for Cocos' effects their reflection");
     command->add_flag("--text", options->text, "Print the GLSL that is compiled");
