@@ -9,6 +9,7 @@
 
 #include "flow/FrameData.h"
 #include "scene/EnvironmentCube.h"
+#include "scene/Framing.h"
 #include "stages/Builtin.h"
 
 namespace crevice {
@@ -75,6 +76,7 @@ void Renderer::setScene(Scene scene) {
             scene_.environment->radiance, options_.useCache ? cacheFolder("environments") : std::nullopt);
     }
     bounds_ = scene_.bounds();
+    outline_ = scene_.cameras.empty() ? outlineOf(scene_) : std::vector<glm::vec3>();
     exposureEv_ = scene_.exposureEv ? *scene_.exposureEv : autoExposureEv(scene_);
     if (pipeline_) prepare();
 }
@@ -92,7 +94,7 @@ Camera Renderer::cameraFor(const View& view) const {
     const float aspect = static_cast<float>(view.width) / static_cast<float>(view.height);
     Camera camera = view.camera               ? *view.camera
                     : !scene_.cameras.empty() ? scene_.cameras.front()
-                                              : frameBounds(bounds_, kDefaultFovY, aspect);
+                                              : frameOutline(outline_, bounds_, kDefaultFovY, aspect);
     fitNearFar(camera, bounds_);
     return camera;
 }

@@ -94,9 +94,10 @@ private:
     Device device_;
     EffectLibrary effects_;
     Scene scene_;
-    Aabb bounds_;            ///< Of scene_.
-    float exposureEv_ = 0;   ///< In force for scene_.
-    bool hasScene_ = false;  ///< With all its vertices and pixels.
+    Aabb bounds_;                     ///< Of scene_.
+    std::vector<glm::vec3> outline_;  ///< Of scene_, when it has no camera.
+    float exposureEv_ = 0;            ///< In force for scene_.
+    bool hasScene_ = false;           ///< With all its vertices and pixels.
     std::unique_ptr<RenderPipeline> pipeline_;
 };
 

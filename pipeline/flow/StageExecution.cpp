@@ -20,6 +20,12 @@ bool usesSet(const ShaderInfo& info, std::uint32_t set) {
     return false;
 }
 
+// What is seen through an object's near side is its far side: it must be blended first, whatever the triangles' order.
+bool needsTwoPasses(const RenderState& state) {
+    return state.topology == Topology::TriangleList && state.cullMode == CullMode::None &&
+           !state.blendTargets.empty() && state.blendTargets[0].blend;
+}
+
 std::uint32_t groupCount(std::uint32_t pixels, std::uint32_t local) { return (pixels + local - 1) / local; }
 
 }  // namespace
@@ -67,11 +73,17 @@ StageExecution::ShaderGpu StageExecution::makeShader(const EffectVariant& varian
         vertexInput(variant, surface ? VertexSource::Mesh : VertexSource::Quad, missingAttributes(context_.profile));
     shader.usesQuad = !surface && input.uses(kMeshStream);
     shader.usesZeroes = input.uses(kZeroStream);
+    const bool twoSided = surface && !isCocos(context_.profile) && needsTwoPasses(state);
+    if (twoSided) state.cullMode = CullMode::Back;
     shader.pipeline = &makePipeline(variant, input, layout, state);
-    if (surface) {
-        state.frontFaceCcw = !state.frontFaceCcw;
-        shader.flipped = &makePipeline(variant, input, layout, state);
-    }
+    if (!surface) return shader;
+    state.frontFaceCcw = !state.frontFaceCcw;
+    shader.flipped = &makePipeline(variant, input, layout, state);
+    if (!twoSided) return shader;
+    state.cullMode = CullMode::Front;
+    shader.farSidesFlipped = &makePipeline(variant, input, layout, state);
+    state.frontFaceCcw = !state.frontFaceCcw;
+    shader.farSides = &makePipeline(variant, input, layout, state);
     return shader;
 }
 
@@ -225,6 +237,7 @@ void StageExecution::drawPasses(QueueId queue, const DrawList& list, std::uint32
 
 void StageExecution::drawBatch(const ShaderGpu& shader, const DrawBatch& batch,
                                std::span<const std::uint32_t> instances) {
+    if (shader.farSides) return drawTwoSided(shader, batch, instances);
     const SceneGpu::MeshRange& mesh = scene_->mesh(batch.mesh);
     if (!shader.usesLocal) {
         context_.commands.drawIndexed(mesh.indexCount, batch.instanceCount, mesh.firstIndex, mesh.vertexOffset,
@@ -234,6 +247,20 @@ void StageExecution::drawBatch(const ShaderGpu& shader, const DrawBatch& batch,
     for (std::uint32_t i = batch.firstInstance; i < batch.firstInstance + batch.instanceCount; ++i) {
         context_.locals.bind(context_.commands, scene_->scene().instances[instances[i]].world);
         context_.commands.drawIndexed(mesh.indexCount, 1, mesh.firstIndex, mesh.vertexOffset, i);
+    }
+}
+
+void StageExecution::drawTwoSided(const ShaderGpu& shader, const DrawBatch& batch,
+                                  std::span<const std::uint32_t> instances) {
+    const SceneGpu::MeshRange& mesh = scene_->mesh(batch.mesh);
+    const Pipeline& far = batch.flipped ? *shader.farSidesFlipped : *shader.farSides;
+    const Pipeline& near = batch.flipped ? *shader.flipped : *shader.pipeline;
+    for (std::uint32_t i = batch.firstInstance; i < batch.firstInstance + batch.instanceCount; ++i) {
+        if (shader.usesLocal) context_.locals.bind(context_.commands, scene_->scene().instances[instances[i]].world);
+        for (const Pipeline* pipeline : {&far, &near}) {
+            context_.commands.bindPipeline(*pipeline);
+            context_.commands.drawIndexed(mesh.indexCount, 1, mesh.firstIndex, mesh.vertexOffset, i);
+        }
     }
 }
 

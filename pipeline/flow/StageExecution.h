@@ -69,6 +69,9 @@ private:
         std::optional<ShaderBinding> binding;
         const Pipeline* pipeline = nullptr;
         const Pipeline* flipped = nullptr;  ///< Surfaces: for instances that mirror.
+        /// Blended surfaces with two sides: drawn before `pipeline`, which then has the sides that face the viewer.
+        const Pipeline* farSides = nullptr;
+        const Pipeline* farSidesFlipped = nullptr;
         bool usesLocal = false, usesQuad = false, usesZeroes = false;
         std::uint32_t order = 0;
     };
@@ -82,6 +85,8 @@ private:
     /// The passes of one place in the order, as DrawList orders what they are drawn on.
     void drawPasses(QueueId queue, const DrawList& list, std::uint32_t order);
     void drawBatch(const ShaderGpu& shader, const DrawBatch& batch, std::span<const std::uint32_t> instances);
+    /// One instance after the other, far sides first.
+    void drawTwoSided(const ShaderGpu& shader, const DrawBatch& batch, std::span<const std::uint32_t> instances);
 
     const ExecutionContext& context_;
     StageProgram& program_;

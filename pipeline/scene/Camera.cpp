@@ -1,4 +1,4 @@
-// Projection into Vulkan clip space, and cameras that frame a box or fit their depth range to it.
+// Projection into Vulkan clip space, and cameras that fit their depth range to a box.
 #include "scene/Camera.h"
 
 #include <algorithm>
@@ -18,7 +18,6 @@ constexpr float kDefaultNear = 0.1f;
 constexpr float kDefaultFarPerNear = 1e4f;
 constexpr float kMaxFarPerNear = 4000.0f;  // 32-bit depth then resolves 1/4000 of the largest distance
 constexpr float kDepthMargin = 0.01f;      // of the depth range on either side
-constexpr float kFrameMargin = 1.05f;
 
 std::array<glm::vec3, 8> corners(const Aabb& box) {
     std::array<glm::vec3, 8> points;
@@ -63,38 +62,6 @@ Camera Camera::lookAt(const glm::vec3& eye, const glm::vec3& target, const glm::
     // Turned at the origin, then moved: far from it, eye + forward would lose the direction's digits.
     camera.view = glm::lookAtRH(glm::vec3(0), forward, safeUp);
     camera.view[3] = glm::vec4(-(glm::mat3(camera.view) * eye), 1);
-    return camera;
-}
-
-Camera frameBounds(const Aabb& bounds, float fovY, float aspect) {
-    Aabb box = bounds;
-    if (box.empty) box.add(glm::vec3(0));
-    const glm::vec3 backward = glm::normalize(glm::vec3(0.6f, 0.7f, 1.0f));
-    const glm::vec3 right = glm::normalize(glm::cross(glm::vec3(0, 1, 0), backward));
-    const glm::vec3 up = glm::cross(backward, right);
-    const float tanV = std::tan(0.5f * fovY);
-    const float tanH = tanV * aspect;
-
-    // Every corner must lie inside the frustum. A camera moved sideways by x to a distance D from the centre sees a
-    // corner (r to the right, t towards it) when |r - x| <= tanH (D - t): the corner farthest out on each side bounds
-    // D, and x makes both bounds equal. Up and down likewise.
-    float rightmost = 0, leftmost = 0, highest = 0, lowest = 0;
-    for (const glm::vec3& corner : corners(box)) {
-        const glm::vec3 c = kFrameMargin * (corner - box.centre());
-        const float towards = glm::dot(c, backward);
-        const float sideways = glm::dot(c, right) / tanH, upwards = glm::dot(c, up) / tanV;
-        rightmost = std::max(rightmost, towards + sideways);
-        leftmost = std::max(leftmost, towards - sideways);
-        highest = std::max(highest, towards + upwards);
-        lowest = std::max(lowest, towards - upwards);
-    }
-    float distance = 0.5f * std::max(rightmost + leftmost, highest + lowest);
-    if (distance <= 0) distance = 1;  // a single point
-    const glm::vec3 target =
-        box.centre() + 0.5f * (tanH * (rightmost - leftmost) * right + tanV * (highest - lowest) * up);
-    Camera camera = Camera::lookAt(target + distance * backward, target);
-    camera.fovY = fovY;
-    fitNearFar(camera, box);
     return camera;
 }
 

@@ -58,8 +58,8 @@ Environment loadEnvironment(const std::filesystem::path& path, const Log& log, c
 
 /// The gradient of a sky as light: what SkyboxStage shows of it. No file, no sun.
 Environment skyEnvironment(const Sky& sky);
-/// The light that a scene without any gets: a bright horizon between a darker sky and a dark ground, so that metals
-/// have something to show. White level surfaces that face up and down have radiances 0.18 and 0.085.
+/// The light that a scene without any gets: a dim studio with three soft boxes, so that metals and varnish have
+/// something to mirror. White level surfaces that face up and down have radiances 0.5 and 0.18.
 Environment defaultEnvironment();
 
 }  // namespace crevice

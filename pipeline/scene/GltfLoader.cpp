@@ -28,6 +28,7 @@ Scene loadGltf(const std::filesystem::path& path, const LoadOptions& options) {
     scene.textures = images.decode();
     dropBrokenNormalMaps(images.broken(), scene);
     gltf::convertSpecularGlossiness(materials.toConvert, scene);
+    gltf::drawOpaqueWhatIs(scene);
     return scene;
 }
 

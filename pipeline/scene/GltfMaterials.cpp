@@ -27,7 +27,7 @@ public:
         const bool unlit = extensionOf(from_, "KHR_materials_unlit") != nullptr;
         const Value* glossiness = unlit ? nullptr : extensionOf(from_, "KHR_materials_pbrSpecularGlossiness");
         readMetallicRoughness(unlit);
-        if (glossiness && !hasOwnMetallicRoughness()) toConvert.push_back(readGlossiness(*glossiness));
+        if (glossiness && !hasOwnMetallicRoughness(*glossiness)) toConvert.push_back(readGlossiness(*glossiness));
         if (unlit)
             to_.unlit = true;  // every other property is for lit materials
         else
@@ -118,11 +118,16 @@ private:
             to_.occlusionStrength = float(numberOr(*info, "strength", 1));
     }
 
-    // A file with both was made for either: its own metallic-roughness is better than a conversion.
-    bool hasOwnMetallicRoughness() const {
+    // A file with both was made for either: its own metallic-roughness is better than a conversion, unless it is a
+    // makeshift without the textures or the file asks for the extension.
+    bool hasOwnMetallicRoughness(const Value& glossiness) const {
+        for (const Value& name : listIn(file_.json, "extensionsRequired"))
+            if (name.isString() && name.string() == "KHR_materials_pbrSpecularGlossiness") return false;
         const Value* pbr = objectIn(&from_, "pbrMetallicRoughness");
-        return pbr &&
-               (pbr->find("metallicRoughnessTexture") || pbr->find("metallicFactor") || pbr->find("roughnessFactor"));
+        if (!pbr) return false;
+        if (glossiness.find("diffuseTexture") && !pbr->find("baseColorTexture")) return false;
+        if (glossiness.find("specularGlossinessTexture")) return pbr->find("metallicRoughnessTexture") != nullptr;
+        return pbr->find("metallicRoughnessTexture") || pbr->find("metallicFactor") || pbr->find("roughnessFactor");
     }
 
     SpecularGlossiness readGlossiness(const Value& from) {

@@ -162,6 +162,9 @@ Materials readMaterials(const File& file, Images& images);
 /// Replaces what readMaterials() left for after decoding. Adds textures.
 void convertSpecularGlossiness(const std::vector<SpecularGlossiness>& materials, Scene& scene);
 
+/// Blended materials whose factor, texture and vertex colours are opaque become opaque. Needs pixels and vertices.
+void drawOpaqueWhatIs(Scene& scene);
+
 /// The numbers that an animation gives at one time; what it does not move stays as the file has it.
 struct Pose {
     std::map<int, glm::vec3> translations{}, scales{};

@@ -61,11 +61,11 @@ bool addDefaultLight(Scene& scene, bool environment) {
     Light key;
     key.name = "default key light";
     key.direction = glm::normalize(glm::vec3(0.5f, -0.8f, -0.45f));
-    // A white level floor leaves the key with radiance 0.32 (E cos / pi) and the sky with 0.18: together 0.5,
-    // mid-bright.
-    key.intensity = 0.32f * glm::pi<float>() / -key.direction.y;
+    // A white level floor leaves the key with radiance 0.45 (E cos / pi) and the ambient light with 0.3. The environment
+    // that takes the latter's place gives it 0.5, and less from other sides.
+    key.intensity = 0.45f * glm::pi<float>() / -key.direction.y;
     scene.lights.push_back(key);
-    scene.ambient = Ambient{.sky = {0.17f, 0.18f, 0.19f}, .ground = {0.09f, 0.085f, 0.08f}};
+    scene.ambient = Ambient{.sky = {0.34f, 0.35f, 0.37f}, .ground = {0.16f, 0.15f, 0.14f}};
     if (environment) scene.environment = defaultEnvironment();
     return true;
 }

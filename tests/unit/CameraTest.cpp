@@ -185,9 +185,9 @@ TEST(DefaultLight, OnlyForScenesWithoutAny) {
     EXPECT_TRUE(addDefaultLight(scene));
     ASSERT_EQ(scene.lights.size(), 1u);
     ASSERT_TRUE(scene.ambient);
-    // A white level floor: key + sky give one half.
+    // A white level floor: key + sky give 0.8, as docs/scenes.md says.
     const float key = scene.lights[0].intensity * -scene.lights[0].direction.y / 3.14159265f;
-    EXPECT_NEAR(key + scene.ambient->sky.y, 0.5f, 1e-3);
+    EXPECT_NEAR(key + scene.ambient->sky.y, 0.8f, 1e-3);
     EXPECT_NEAR(glm::length(scene.lights[0].direction), 1, 1e-6);
     EXPECT_FALSE(addDefaultLight(scene));
 

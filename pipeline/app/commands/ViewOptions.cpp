@@ -11,6 +11,7 @@
 #include "app/commands/ArgumentText.h"
 #include "core/Error.h"
 #include "core/Text.h"
+#include "scene/Framing.h"
 
 namespace crevice {
 namespace {
@@ -130,7 +131,7 @@ std::optional<Camera> chooseCamera(const ViewChoice& view, const Scene& scene) {
         camera = scene.cameras.front();
     } else {
         const float aspect = static_cast<float>(view.size.x) / static_cast<float>(view.size.y);
-        camera = frameBounds(bounds, view.fov.value_or(kDefaultFovY), aspect);
+        camera = frameOutline(outlineOf(scene), bounds, view.fov.value_or(kDefaultFovY), aspect);
         camera.near = camera.far = 0;
     }
     if (view.fov) {
@@ -157,7 +158,7 @@ Camera resolveCamera(const ViewChoice& view, const Scene& scene) {
     if (!camera && !scene.cameras.empty()) camera = scene.cameras.front();
     if (!camera) {
         const float aspect = static_cast<float>(view.size.x) / static_cast<float>(view.size.y);
-        camera = frameBounds(bounds, kDefaultFovY, aspect);
+        camera = frameOutline(outlineOf(scene), bounds, kDefaultFovY, aspect);
     }
     fitNearFar(*camera, bounds);
     return *camera;
