@@ -10,9 +10,6 @@
 
 namespace crevice::gltf {
 
-namespace {
-
-// Bytes of one component, 0 for types that glTF 2.0 does not have.
 std::size_t componentSize(int type) {
     switch (type) {
         case kByte:
@@ -28,6 +25,8 @@ std::size_t componentSize(int type) {
             return 0;
     }
 }
+
+namespace {
 
 /// Elements in memory, already checked; null = all zero, or missing.
 struct Elements {
@@ -167,19 +166,22 @@ Layout layOut(const File& file, std::size_t index) {
     return layout;
 }
 
-// Calls visit(element, component, bytes) for every stored component; sparse ones come last and overwrite.
+// Calls visit(element, component, bytes) for every stored component of the first `most` elements; sparse ones come last
+// and overwrite.
 template <class Visit>
-void visitComponents(const AccessorPart& accessor, const Layout& layout, Visit visit) {
+void visitComponents(const AccessorPart& accessor, const Layout& layout, Visit visit,
+                     std::size_t most = std::size_t(-1)) {
     const int components = accessor.components();
     const auto visitElement = [&](std::size_t element, const unsigned char* bytes) {
         for (int c = 0; c < components; ++c) visit(element, c, bytes + layout.offsets[std::size_t(c)]);
     };
     if (layout.base.data)
-        for (std::size_t i = 0; i < accessor.count; ++i) visitElement(i, layout.base.data + i * layout.base.stride);
+        for (std::size_t i = 0; i < std::min(most, accessor.count); ++i)
+            visitElement(i, layout.base.data + i * layout.base.stride);
     for (std::size_t i = 0; i < layout.sparseCount; ++i) {
         const std::uint32_t target =
             toInteger(layout.sparseIndices.data + i * layout.sparseIndices.stride, accessor.sparse->indicesType);
-        visitElement(target, layout.sparseValues.data + i * layout.sparseValues.stride);
+        if (target < most) visitElement(target, layout.sparseValues.data + i * layout.sparseValues.stride);
     }
 }
 
@@ -268,6 +270,18 @@ void checkValues(const File& file, std::size_t index, const unsigned char* bytes
     checkRangeDeclared(file, index, findRange(file, index, bytes, stride, accessor.count, components), components);
 }
 
+void checkSparseStart(const File& file, std::size_t index, const Layout& layout) {
+    const SparsePart& sparse = *file.model.accessors[index].sparse;
+    const auto check = [&](const char* what, int view, std::size_t offset, std::size_t size) {
+        const std::size_t at = file.model.bufferViews[std::size_t(view)].byteOffset + offset;
+        if (at % size || offset % size)
+            file.fault("accessors", index,
+                       fmt::format("'{}' begin at byte {}, not at a multiple of {}", what, at, size));
+    };
+    check("sparse.indices", sparse.indicesView, sparse.indicesOffset, componentSize(sparse.indicesType));
+    check("sparse.values", sparse.valuesView, sparse.valuesOffset, layout.componentBytes);
+}
+
 }  // namespace
 
 void checkAccessor(const File& file, std::size_t index) {
@@ -287,6 +301,9 @@ void checkAccessor(const File& file, std::size_t index) {
         file.fault("accessors", index,
                    fmt::format("it begins at byte {}, not at a multiple of {}", view + accessor.byteOffset,
                                layout.componentBytes));
+    if (accessor.columns > 1 && (view + accessor.byteOffset) % 4)
+        file.fault("accessors", index, "its columns do not begin at multiples of 4 bytes");
+    if (accessor.sparse) checkSparseStart(file, index, layout);
     if (accessor.bufferView < 0 && accessor.byteOffset > 0)
         file.fault("accessors", index, "'byteOffset' needs a 'bufferView'");
 }
@@ -304,6 +321,30 @@ Floats readFloats(const File& file, int index) {
     });
     checkValues(file, std::size_t(index), reinterpret_cast<const unsigned char*>(floats.values.data()),
                 components * sizeof(float));
+    return floats;
+}
+
+bool hasData(const File& file, int index) {
+    const AccessorPart& accessor = file.model.accessors[std::size_t(index)];
+    if (!isKnown(accessor) || accessor.count > 6 * file.options.limits.maxVertices) return false;
+    if (accessor.bufferView < 0 && !accessor.sparse) return false;
+    const auto isMissing = [&](int view) { return file.model.bufferViews[std::size_t(view)].bytes.empty(); };
+    if (accessor.bufferView >= 0 && isMissing(accessor.bufferView)) return false;
+    return !accessor.sparse || !(isMissing(accessor.sparse->indicesView) || isMissing(accessor.sparse->valuesView));
+}
+
+Floats readFirstFloats(const File& file, int index, std::size_t most) {
+    const AccessorPart& accessor = file.model.accessors[std::size_t(index)];
+    const Layout layout = layOutData(file, std::size_t(index));
+    Floats floats;
+    floats.components = accessor.components();
+    const std::size_t components = std::size_t(floats.components);
+    floats.values.assign(std::min(most, accessor.count) * components, 0.0f);
+    const auto keep = [&](std::size_t element, int component, const unsigned char* bytes) {
+        floats.values[element * components + std::size_t(component)] =
+            toFloat(bytes, accessor.componentType, accessor.normalized);
+    };
+    visitComponents(accessor, layout, keep, most);
     return floats;
 }
 

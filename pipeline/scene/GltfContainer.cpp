@@ -23,12 +23,6 @@ std::uint32_t word(std::span<const std::byte> bytes, std::size_t offset) {
     throw Error(SourceLoc{file.name}, "broken .glb: " + why, "the file may be truncated: export or download it again");
 }
 
-// A formal fault of the container, which has no list of the JSON as its place.
-void tell(const File& file, const std::string& message) {
-    if (file.options.strict) throw Error(SourceLoc{file.name}, message, "export the file again, or leave --strict out");
-    file.options.log.warning(fmt::format("{}: {}", file.name, message));
-}
-
 std::size_t checkHeader(const File& file) {
     const std::span<const std::byte> bytes = file.content;
     if (bytes.size() < kHeaderBytes + kChunkHeaderBytes)
@@ -41,7 +35,8 @@ std::size_t checkHeader(const File& file) {
         refuse(file, fmt::format("its header says {} bytes, the file has {}", length, bytes.size()));
     if (length < kHeaderBytes + kChunkHeaderBytes) refuse(file, fmt::format("its header says {} bytes", length));
     if (length < bytes.size())
-        tell(file, fmt::format("{} bytes follow the end of the .glb and are ignored", bytes.size() - length));
+        file.fault(SourceLoc{file.name},
+                   fmt::format("{} bytes follow the end of the .glb and are ignored", bytes.size() - length));
     return length;
 }
 
@@ -58,12 +53,13 @@ std::string_view readContainer(File& file) {
         const std::uint32_t kind = word(bytes, at + 4);
         at += kChunkHeaderBytes;
         if (size > length - at) refuse(file, fmt::format("chunk {} reaches beyond the file", chunk));
-        if (size % 4) tell(file, fmt::format("the length of chunk {} is not a multiple of 4", chunk));
+        if (size % 4)
+            file.fault(SourceLoc{file.name}, fmt::format("the length of chunk {} is not a multiple of 4", chunk));
         if (chunk == 0 && kind != kJsonChunk) refuse(file, "the first chunk is not JSON");
         if (chunk > 0 && kind == kJsonChunk) refuse(file, "it has two JSON chunks");
         if (kind == kBinaryChunk) {
             if (file.hasBinaryChunk) refuse(file, "it has two chunks of binary data");
-            if (chunk != 1) tell(file, "the chunk of binary data is not the second one");
+            if (chunk != 1) file.fault(SourceLoc{file.name}, "the chunk of binary data is not the second one");
             file.binaryChunk = bytes.subspan(at, size);
             file.hasBinaryChunk = true;
         }

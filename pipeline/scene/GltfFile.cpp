@@ -21,11 +21,6 @@ constexpr std::array kSupportedExtensions = {
     "KHR_texture_transform",   "KHR_mesh_quantization",           "KHR_materials_pbrSpecularGlossiness",
     "EXT_mesh_gpu_instancing", "EXT_meshopt_compression",         "EXT_texture_webp"};
 
-bool isSupported(const std::string& name) {
-    return std::any_of(kSupportedExtensions.begin(), kSupportedExtensions.end(),
-                       [&](const char* n) { return name == n; });
-}
-
 SourceLoc placeOf(const File& file, const Value* value) {
     // Lines of a .glb's JSON chunk say nothing: it is one long line inside a binary file.
     return value && !file.binary ? value->where() : SourceLoc{file.name};
@@ -43,6 +38,7 @@ void checkVersion(const File& file) {
         throw Error(placeOf(file, version ? version : &file.json),
                     "'asset.version' is not 2.x: this is no glTF 2.0 file",
                     "a glTF 2.0 file has \"asset\": { \"version\": \"2.0\" }");
+    if (text != "2.0") file.note(fmt::format("'asset.version' is {}: it is read as glTF 2.0", text.substr(0, 20)));
     const Value* least = asset->find("minVersion");
     if (least && (!least->isString() || least->string() != "2.0"))
         throw Error(placeOf(file, least), "'asset.minVersion' asks for more than glTF 2.0, which Crevice reads",
@@ -60,16 +56,26 @@ const std::vector<Value>& namesIn(const File& file, const char* key) {
 
 void checkExtensions(const File& file) {
     const std::vector<Value>& used = namesIn(file, "extensionsUsed");
+    for (const char* key : {"extensionsUsed", "extensionsRequired"}) {
+        std::set<std::string> names;
+        const Value* list = file.json.find(key);
+        if (list && listIn(file.json, key).empty()) file.fault(placeOf(file, list), fmt::format("'{}' is empty", key));
+        for (const Value& name : listIn(file.json, key)) {
+            if (!names.insert(name.string()).second)
+                file.fault(placeOf(file, &name), fmt::format("'{}' is in '{}' twice", name.string(), key));
+        }
+    }
     for (const Value& name : namesIn(file, "extensionsRequired")) {
-        if (!isSupported(name.string()))
+        if (!isSupportedExtension(name.string()))
             throw Error(placeOf(file, &name),
                         fmt::format("the file requires the extension '{}', which Crevice does not read", name.string()),
                         "export it without that extension");
         if (std::none_of(used.begin(), used.end(), [&](const Value& u) { return u.string() == name.string(); }))
-            file.fault("extensionsRequired", 0, fmt::format("'{}' is not in 'extensionsUsed'", name.string()));
+            file.fault(placeOf(file, &name),
+                       fmt::format("the required extension '{}' is not in 'extensionsUsed'", name.string()));
     }
     for (const Value& name : used)
-        if (!isSupported(name.string()))
+        if (!isSupportedExtension(name.string()))
             file.note(fmt::format("the extension '{}' is not read; the scene is shown without it", name.string()));
 }
 
@@ -78,7 +84,14 @@ void parseDocument(File& file) {
     file.binary = text.starts_with(kGlbMagic);
     if (file.binary) text = readContainer(file);
     constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
-    if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
+    if (text.starts_with(kByteOrderMark)) {
+        file.fault(SourceLoc{file.name}, "the JSON begins with a byte order mark");
+        text.remove_prefix(kByteOrderMark.size());
+    }
+    const std::size_t begin = text.find_first_not_of(" \t\r\n");
+    if (begin != std::string_view::npos && std::string_view("{[\"/-0123456789tfn").find(text[begin]) == text.npos)
+        throw Error(SourceLoc{file.name}, "it begins neither as JSON nor as a .glb",
+                    "a .gltf begins with '{', a .glb with the letters glTF");
     const Limits& limits = file.options.limits;
     file.json = parseJson(
         text, file.name,
@@ -90,6 +103,11 @@ void parseDocument(File& file) {
 }
 
 }  // namespace
+
+bool isSupportedExtension(const std::string& name) {
+    return std::any_of(kSupportedExtensions.begin(), kSupportedExtensions.end(),
+                       [&](const char* n) { return name == n; });
+}
 
 const Value& File::item(std::string_view list, std::size_t index) const { return listIn(json, list)[index]; }
 
@@ -109,11 +127,19 @@ void File::fail(std::string_view list, std::size_t index, const std::string& mes
 }
 
 void File::fault(std::string_view list, std::size_t index, const std::string& message) const {
-    if (options.strict) fail(list, index, message, "repair the entry, or leave --strict out: it does no harm");
-    if (++faultCount < kMaxFaultsTold) warn(list, index, message);
-    if (faultCount == kMaxFaultsTold)
-        options.log.warning(
-            fmt::format("{}: more faults of this kind are not listed; --strict stops at the first", name));
+    fault(where(list, index), fmt::format("{}[{}]: {}", list, index, message));
+}
+
+void File::fault(const SourceLoc& where, const std::string& message) const {
+    if (options.strict) throw Error(where, message, "repair the entry, or leave --strict out: it does no harm");
+    if (faults.size() >= kMaxFaultsTold || !faults.insert(message).second) return;
+    if (faults.size() < kMaxFaultsTold) return options.log.warning(fmt::format("{}: {}", name, message));
+    options.log.warning(fmt::format("{}: more faults of this kind are not listed; --strict stops at the first", name));
+}
+
+void File::lack(std::string_view list, std::size_t index, const std::string& message) const {
+    if (options.strict) fail(list, index, message, "repair the file, or leave --strict out");
+    warn(list, index, message);
 }
 
 void File::warn(std::string_view list, std::size_t index, const std::string& message) const {
@@ -136,7 +162,12 @@ File open(const fs::path& path, const LoadOptions& options) {
     resources.readImages();
     for (std::size_t i = 0; i < file.model.accessors.size(); ++i) checkAccessor(file, i);
     checkRules(file);
+    checkAttributes(file);
+    checkLights(file);
+    checkSkins(file);
+    checkUses(file);
     checkAnimations(file);
+    checkData(file);
     return file;
 }
 

@@ -120,7 +120,7 @@ std::vector<SceneTexture> Images::decode() {
     for (const auto& [index, result] : decoded) {
         const ImagePart& image = file_.model.images[std::size_t(index)];
         const bool told = image.bytes.empty() && !image.uri.empty() && !image.uri.starts_with("data:");
-        if (!result.image && !told) file_.warn("images", std::size_t(index), result.problem + ": shown white");
+        if (!result.image && !told) file_.lack("images", std::size_t(index), result.problem + ": shown white");
     }
     std::vector<SceneTexture> textures;
     std::map<int, std::size_t> usesLeft;

@@ -8,6 +8,25 @@
 
 namespace crevice::gltf {
 
+namespace {
+
+double innerAngle(const Value& spot) { return numberOr(spot, "innerConeAngle", 0); }
+double outerAngle(const Value& spot) { return numberOr(spot, "outerConeAngle", glm::quarter_pi<double>()); }
+
+}  // namespace
+
+void checkLights(const File& file) {
+    const Value* extension = extensionOf(file.json, "KHR_lights_punctual");
+    if (!extension) return;
+    const auto& lights = listIn(*extension, "lights");
+    for (std::size_t i = 0; i < lights.size(); ++i) {
+        const Value* spot = objectIn(&lights[i], "spot");
+        if (spot && !(innerAngle(*spot) < outerAngle(*spot)))
+            file.fail("lights", i, "'innerConeAngle' is not below 'outerConeAngle'");
+        if (!spot && textOr(lights[i], "type") == "spot") file.fault("lights", i, "'spot' is missing");
+    }
+}
+
 std::optional<Camera> readCamera(const File& file, int index, const glm::mat4& world, const std::string& otherName) {
     const std::size_t camera = std::size_t(index);
     const Value& from = file.item("cameras", camera);
@@ -58,10 +77,8 @@ Light readLight(const File& file, int index, const glm::mat4& world, const std::
     to.range = float(numberOr(from, "range", 0));
     const Value* spot = objectIn(&from, "spot");
     if (to.type == LightType::Spot) {
-        to.innerAngle = spot ? float(numberOr(*spot, "innerConeAngle", 0)) : 0;
-        to.outerAngle = spot ? float(numberOr(*spot, "outerConeAngle", glm::quarter_pi<double>())) : to.outerAngle;
-        if (!(to.innerAngle < to.outerAngle))
-            file.fail("lights", light, "'innerConeAngle' is not below 'outerConeAngle'");
+        to.innerAngle = spot ? float(innerAngle(*spot)) : 0;
+        to.outerAngle = spot ? float(outerAngle(*spot)) : to.outerAngle;
     }
     to.position = glm::vec3(world[3]);
     const glm::vec3 direction = -glm::vec3(world[2]);

@@ -33,9 +33,9 @@ int findAttribute(const File& file, int mesh, const PrimitivePart& primitive, co
     for (const AttributeRule& rule : kAttributeRules)
         if (name.starts_with(rule.name) &&
             (accessor.columns != 1 || accessor.rows < rule.least || accessor.rows > rule.most))
-            file.fail(
-                "accessors", index,
-                fmt::format("'type' does not fit {} of meshes[{}]: {} components", name, mesh, accessor.components()));
+            file.fail("accessors", index,
+                      fmt::format("'type' does not fit {} of meshes[{}]: it is '{}'", name, mesh,
+                                  textOr(file.item("accessors", index), "type")));
     return entry->second;
 }
 

@@ -41,6 +41,12 @@ Value withKnownTypes(Value accessors) {
     return accessors;
 }
 
+/// The same for distances between elements; they are read from the checked JSON.
+Value withoutStrides(Value views) {
+    for (Value& item : views.items()) item.erase("byteStride");
+    return views;
+}
+
 /// tinygltf reads these; bytes and pictures it never sees: they are read within the limits by Resources.
 constexpr const char* kParsed[] = {"asset", "accessors", "bufferViews", "textures", "meshes", "nodes"};
 
@@ -48,7 +54,9 @@ tinygltf::Model parse(const Value& json, const std::string& name) {
     Value known = Value::makeObject();
     for (const char* key : kParsed)
         if (const Value* list = memberOf(json, key))
-            known.set(key, std::string_view(key) == "accessors" ? withKnownTypes(*list) : *list);
+            known.set(key, std::string_view(key) == "accessors"     ? withKnownTypes(*list)
+                           : std::string_view(key) == "bufferViews" ? withoutStrides(*list)
+                                                                    : *list);
     const std::string text = known.toJson(0);
     tinygltf::Model model;
     tinygltf::TinyGLTF parser;
@@ -93,7 +101,7 @@ BufferViewPart readBufferView(const tinygltf::BufferView& from, const Value& jso
     BufferViewPart to{.buffer = from.buffer,
                       .byteOffset = from.byteOffset,
                       .byteLength = from.byteLength,
-                      .byteStride = from.byteStride};
+                      .byteStride = sizeOr(json, "byteStride")};
     if (const Value* meshopt = extensionOf(json, "EXT_meshopt_compression"))
         to.compression = Compression{.buffer = intOr(*meshopt, "buffer"),
                                      .byteOffset = sizeOr(*meshopt, "byteOffset"),

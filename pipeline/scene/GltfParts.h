@@ -30,7 +30,7 @@ struct File {
     std::deque<std::vector<std::byte>> storage{};  ///< Files, decoded URIs and decompressed views.
     Value json{};
     Model model{};
-    mutable std::size_t faultCount = 0;  ///< Formal faults told so far.
+    mutable std::set<std::string> faults{};  ///< Formal faults told so far: each is told once.
 
     /// The place of `list[index]`, as exact as the format allows.
     SourceLoc where(std::string_view list, std::size_t index) const;
@@ -39,6 +39,9 @@ struct File {
                            const std::string& help = {}) const;
     /// A breach of the format that does no harm: a warning, or an Error when LoadOptions::strict.
     void fault(std::string_view list, std::size_t index, const std::string& message) const;
+    void fault(const SourceLoc& where, const std::string& message) const;
+    /// Something optional that cannot be had: a warning, or an Error when LoadOptions::strict.
+    void lack(std::string_view list, std::size_t index, const std::string& message) const;
     void warn(std::string_view list, std::size_t index, const std::string& message) const;
     void note(const std::string& message) const;
     /// `list[index]` in the JSON; must exist.
@@ -50,10 +53,21 @@ File open(const std::filesystem::path& path, const LoadOptions& options);
 
 /// Splits a .glb: fills binaryChunk, returns the JSON text. Throws Error.
 std::string_view readContainer(File& file);
+bool isSupportedExtension(const std::string& name);
 /// Types, ranges and references of everything in the JSON. Throws Error with the first breach that does harm.
 void checkSchema(const File& file);
 /// What spans several objects: trees, attributes, skins, animations, cameras.
 void checkRules(const File& file);
+/// What accessors and buffer views serve for: each for one thing, laid out as that thing asks.
+void checkUses(const File& file);
+/// Names, numbers and types of vertex attributes.
+void checkAttributes(const File& file);
+/// Lights that no node holds, too.
+void checkLights(const File& file);
+/// Roots of skins, and scenes that hold their joints.
+void checkSkins(const File& file);
+/// Stored values: units, ranges and bounds; of long accessors the first few thousand, with LoadOptions::strict all.
+void checkData(const File& file);
 
 /// Reads files that the glTF names: inside the allowed folders, within the limits.
 class Resources {
@@ -84,6 +98,9 @@ std::optional<std::vector<std::byte>> decodeDataUri(std::string_view uri);
 /// EXT_meshopt_compression. Throws Error.
 std::vector<std::byte> decompress(const File& file, std::size_t view, std::span<const std::byte> source);
 
+/// Bytes of one component, 0 for types that glTF 2.0 does not have.
+std::size_t componentSize(int componentType);
+
 /// Numbers of an accessor, converted to float: normalised integers to [0,1] or [-1,1].
 struct Floats {
     std::vector<float> values;
@@ -94,6 +111,11 @@ struct Floats {
 void checkAccessor(const File& file, std::size_t index);
 /// Throws Error: numbers that are not finite, an accessor without data.
 Floats readFloats(const File& file, int accessor);
+/// The first `most` elements, unchecked: they may be beyond declared bounds or not finite. Integers that are no
+/// indices, as well; exact up to 2^24.
+Floats readFirstFloats(const File& file, int accessor, std::size_t most);
+/// The accessor's data is there and could be read.
+bool hasData(const File& file, int accessor);
 
 /// Vectors of floats as a mesh takes them, one after the other: read where they lie in the file's buffer when they are
 /// floats already, so that big meshes are not copied twice. Must not outlive the file.

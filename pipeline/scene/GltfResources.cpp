@@ -69,6 +69,8 @@ void Resources::readBuffer(std::size_t index, BufferPart& buffer) {
                                        buffer.byteLength),
                            "the file may be truncated: export or download it again");
             buffer.bytes = file_.binaryChunk.first(buffer.byteLength);
+            if (const std::size_t rest = file_.binaryChunk.size() - buffer.byteLength; rest > 3)  // more than padding
+                file_.note(fmt::format("buffers[{}]: {} bytes of the binary chunk are left over", index, rest));
         } else if (file_.binary && !buffer.fallback) {
             file_.fail("buffers", index, "it has neither 'uri' nor a chunk of binary data");
         }
@@ -86,6 +88,9 @@ void Resources::readBuffer(std::size_t index, BufferPart& buffer) {
         buffer.bytes = keep(std::move(*bytes)).first(buffer.byteLength);
         return;
     }
+    if (hasScheme(buffer.uri))
+        file_.fail("buffers", index, fmt::format("'{}' is not a file", buffer.uri.substr(0, 80)),
+                   "copy the file beside the .gltf and name it there");
     const fs::path path = placeOf("buffers", index, buffer.uri).lexically_normal();
     const std::string shown = path.filename().string();
     const auto known = read_.find(path);
@@ -167,14 +172,14 @@ void Resources::readImages() {
             continue;
         }
         if (hasScheme(image.uri)) {
-            file_.warn("images", i, fmt::format("'{}' is not a file: shown white", image.uri.substr(0, 80)));
+            file_.lack("images", i, fmt::format("'{}' is not a file: shown white", image.uri.substr(0, 80)));
             continue;
         }
         if (image.uri.empty()) continue;
         const fs::path path = placeOf("images", i, image.uri);
         std::error_code error;
         if (!fs::is_regular_file(path, error)) {
-            file_.warn("images", i, fmt::format("no file '{}': shown white", path.filename().string()));
+            file_.lack("images", i, fmt::format("no file '{}': shown white", path.filename().string()));
             continue;
         }
         image.bytes = keep(readBytes(path, bytesLeft_));

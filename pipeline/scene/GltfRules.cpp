@@ -4,26 +4,50 @@
 
 #include <fmt/format.h>
 
+#include "core/Picture.h"
 #include "scene/GltfParts.h"
 
 namespace crevice::gltf {
 
 namespace {
 
+constexpr int kIndexTarget = 34963;  // ELEMENT_ARRAY_BUFFER
+
 void checkBufferViews(const File& file) {
     for (std::size_t i = 0; i < file.model.bufferViews.size(); ++i) {
         const BufferViewPart& view = file.model.bufferViews[i];
         if (view.byteStride % 4) file.fault("bufferViews", i, "'byteStride' is not a multiple of 4");
+        if (view.byteStride && intOr(file.item("bufferViews", i), "target", 0) == kIndexTarget)
+            file.fault("bufferViews", i, "'byteStride' is not for indices");
         if (view.byteStride > view.byteLength) file.fault("bufferViews", i, "'byteStride' is above 'byteLength'");
     }
 }
 
+const char* typeOf(PictureKind kind) {
+    return kind == PictureKind::Png ? "image/png" : kind == PictureKind::Jpeg ? "image/jpeg" : "image/webp";
+}
+
 void checkImages(const File& file) {
+    const auto& used = listIn(file.json, "extensionsUsed");
+    const bool webp =
+        std::any_of(used.begin(), used.end(), [](auto& name) { return name.string() == "EXT_texture_webp"; });
     for (std::size_t i = 0; i < file.model.images.size(); ++i) {
         const Value& image = file.item("images", i);
         const bool hasUri = image.find("uri") != nullptr, hasView = image.find("bufferView") != nullptr;
-        if (hasUri == hasView) file.fail("images", i, "it needs either 'uri' or 'bufferView'");
+        if (hasUri == hasView)
+            file.fault(
+                "images", i,
+                fmt::format("it has {} 'uri' {} 'bufferView'", hasUri ? "both" : "neither", hasUri ? "and" : "nor"));
         if (hasView && !image.find("mimeType")) file.fault("images", i, "'mimeType' is missing");
+        const auto header = readPictureHeader(file.model.images[i].bytes);
+        if (!header) continue;  // told when it is decoded
+        const char* actual = typeOf(header->kind);
+        const std::string declared = textOr(image, "mimeType", actual);
+        if (declared != actual)
+            file.fault("images", i,
+                       fmt::format("'mimeType' says {}, the picture is {}", declared.substr(0, 80), actual));
+        if (header->kind == PictureKind::WebP && !webp)
+            file.fault("images", i, "it is WebP, but 'EXT_texture_webp' is not in 'extensionsUsed'");
     }
 }
 
@@ -37,34 +61,15 @@ void checkCameras(const File& file) {
         const double near = numberOr(*lens, "znear", 0), far = numberOr(*lens, "zfar", 0);
         if (far > 0 && far <= near)
             file.fail("cameras", i, fmt::format("'znear' {} and 'zfar' {} do not fit", near, far));
+        for (const char* key : {"xmag", "ymag"}) {
+            if (type != "orthographic") continue;
+            const double size = numberOr(*lens, key, 0);
+            if (size == 0) file.fault("cameras", i, fmt::format("'{}' is 0", key));
+            if (size < 0) file.note(fmt::format("cameras[{}]: '{}' is negative and read as {}", i, key, -size));
+        }
         if (cameras[i].find("perspective") && cameras[i].find("orthographic"))
             file.fault("cameras", i, "it has both 'perspective' and 'orthographic'");
     }
-}
-
-bool isKnownSemantic(const std::string& name) {
-    if (name.starts_with('_') || name == "POSITION" || name == "NORMAL" || name == "TANGENT") return true;
-    for (const char* numbered : {"TEXCOORD_", "COLOR_", "JOINTS_", "WEIGHTS_"})
-        if (name.starts_with(numbered)) return true;
-    return false;
-}
-
-void checkAttributes(const File& file, std::size_t mesh, const PrimitivePart& primitive) {
-    std::size_t joints = 0, weights = 0;
-    for (const auto& [name, accessor] : primitive.attributes) {
-        if (!isKnownSemantic(name)) file.fault("meshes", mesh, fmt::format("attribute '{}' has no meaning", name));
-        joints += name.starts_with("JOINTS_");
-        weights += name.starts_with("WEIGHTS_");
-    }
-    if (joints != weights) file.fail("meshes", mesh, "JOINTS and WEIGHTS do not come in pairs");
-    if (primitive.attributes.contains("TANGENT") && !primitive.attributes.contains("NORMAL"))
-        file.note(fmt::format("meshes[{}]: TANGENT without NORMAL does not count", mesh));
-    const auto position = primitive.attributes.find("POSITION");
-    if (position == primitive.attributes.end())
-        return file.note(fmt::format("meshes[{}]: a primitive without POSITION is not drawn", mesh));
-    const Value& accessor = file.item("accessors", std::size_t(position->second));
-    if (!accessor.find("min") || !accessor.find("max"))
-        file.fault("accessors", std::size_t(position->second), "POSITION needs 'min' and 'max'");
 }
 
 void checkTargets(const File& file, std::size_t mesh, const PrimitivePart& primitive) {
@@ -122,7 +127,6 @@ void checkMeshes(const File& file) {
     for (std::size_t i = 0; i < file.model.meshes.size(); ++i) {
         const MeshPart& mesh = file.model.meshes[i];
         for (const PrimitivePart& primitive : mesh.primitives) {
-            checkAttributes(file, i, primitive);
             checkTargets(file, i, primitive);
             checkMode(file, i, primitive);
             if (primitive.targets.size() != mesh.primitives[0].targets.size())
@@ -204,20 +208,6 @@ void checkTrees(const File& file) {
     }
 }
 
-void checkSkins(const File& file) {
-    const auto& skins = listIn(file.json, "skins");
-    for (std::size_t i = 0; i < skins.size(); ++i) {
-        std::set<int> joints;
-        for (const Value& joint : listIn(skins[i], "joints")) joints.insert(int(joint.number()));
-        if (joints.size() != listIn(skins[i], "joints").size()) file.fault("skins", i, "a joint is named twice");
-        const int accessor = intOr(skins[i], "inverseBindMatrices");
-        if (accessor < 0) continue;
-        const AccessorPart& matrices = file.model.accessors[std::size_t(accessor)];
-        if (matrices.components() != 16 || matrices.componentType != kFloat || matrices.count < joints.size())
-            file.fail("skins", i, "'inverseBindMatrices' is not one 4x4 matrix of floats per joint");
-    }
-}
-
 }  // namespace
 
 void checkRules(const File& file) {
@@ -227,7 +217,6 @@ void checkRules(const File& file) {
     checkMeshes(file);
     for (std::size_t i = 0; i < file.model.nodes.size(); ++i) checkNode(file, i, file.model.nodes[i]);
     checkTrees(file);
-    checkSkins(file);
 }
 
 }  // namespace crevice::gltf

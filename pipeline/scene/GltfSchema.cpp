@@ -1,8 +1,11 @@
-// Walks the JSON of a glTF along the tables: types, ranges, lengths and references.
+// Walks the JSON of a glTF along the tables: types, ranges, lengths and references; where extensions stand.
 #include "scene/GltfSchema.h"
+
+#include <algorithm>
 
 #include <fmt/format.h>
 
+#include "core/Text.h"
 #include "scene/GltfParts.h"
 
 namespace crevice::gltf {
@@ -18,20 +21,71 @@ struct Trail {
 
 class Walk {
 public:
-    explicit Walk(const File& file) : file_(file) {}
+    explicit Walk(const File& file) : file_(file) {
+        for (const Value& name : listIn(file.json, "extensionsUsed"))
+            if (name.isString()) declared_.insert(name.string());
+    }
 
     void checkObject(const Value& value, std::span<const Rule> rules, const Trail& trail) {
-        for (const Rule& rule : rules) {
-            const Value* member = value.find(rule.key);
-            const Trail next{&trail, rule.key, -1};
-            if (member)
-                checkMember(*member, rule, next);
-            else if (rule.required)
+        for (const Rule& rule : rules)
+            if (rule.required && !value.find(rule.key))
                 breach(rule, value, fmt::format("'{}' is missing", rule.key), trail);
+        for (const Member& member : value.members()) {
+            const auto rule =
+                std::find_if(rules.begin(), rules.end(), [&](const Rule& r) { return member.key == r.key; });
+            const bool isKnown = rule != rules.end();
+            if (member.key == "extensions")
+                checkExtensions(member.value, isKnown ? rule->rules : std::span<const Rule>{}, trail);
+            if (isKnown)
+                checkMember(member.value, *rule, Trail{&trail, rule->key, -1});
+            else if (member.key != "extensions" && member.key != "extras" &&
+                     std::string_view(trail.key) != "extensions")
+                surplus_.push_back({&member, trail.index < 0 ? -1 : trail.index, trail.key});
         }
     }
 
+    /// Words that the format does not have: they may be meant for another program.
+    void tellSurplus() const {
+        constexpr std::size_t kMost = 5;
+        std::vector<std::string> names;
+        for (std::size_t i = 0; i < std::min(kMost, surplus_.size()); ++i) {
+            const Surplus& s = surplus_[i];
+            const std::string place = s.index < 0 ? s.list : fmt::format("{}[{}]", s.list, s.index);
+            names.push_back((place.empty() ? "" : place + ".") + s.member->key.substr(0, 80));
+        }
+        if (surplus_.size() > kMost) names.push_back(fmt::format("{} more", surplus_.size() - kMost));
+        if (!names.empty()) file_.note("glTF 2.0 has no such words, they are left out: " + join(names));
+    }
+
 private:
+    struct Surplus {
+        const Member* member;
+        std::ptrdiff_t index;
+        const char* list;
+    };
+
+    // Each must be declared, and those that are read may stand only where they mean something.
+    void checkExtensions(const Value& value, std::span<const Rule> rules, const Trail& trail) {
+        const Rule mild{.key = "extensions", .harmless = true};
+        if (!value.isObject()) {
+            const Rule hard{.key = "extensions", .shape = Shape::Object};
+            return wrongType(hard, value, "an object", trail);
+        }
+        for (const Member& member : value.members()) {
+            if (!declared_.contains(member.key) && undeclared_.insert(member.key).second)
+                breach(mild, value, fmt::format("'{}' is not in 'extensionsUsed'", member.key.substr(0, 80)), trail);
+            const bool fits =
+                std::any_of(rules.begin(), rules.end(), [&](const Rule& r) { return member.key == r.key; });
+            if (!fits && isSupportedExtension(member.key))
+                breach(mild, value, fmt::format("'{}' has no meaning here", member.key), trail);
+            if (!member.value.isObject())
+                breach(
+                    mild, value,
+                    fmt::format("'{}' must be an object, found {}", member.key.substr(0, 80), member.value.typeName()),
+                    trail);
+        }
+    }
+
     // Throws an Error, or tells a fault of what does no harm.
     void breach(const Rule& rule, const Value& value, const std::string& what, const Trail& trail) const {
         // The outermost list and its index are the place; the rest of the path goes into the message.
@@ -50,7 +104,7 @@ private:
         const bool named = path.empty() || what.starts_with("'" + path + "'");
         const std::string message = named ? what : fmt::format("in '{}': {}", path, what);
         if (rule.harmless && !list.empty()) return file_.fault(list, index, message);
-        if (rule.harmless) return file_.note(message);
+        if (rule.harmless) return file_.fault(value.where(), message);
         if (!list.empty()) file_.fail(list, index, message);
         throw Error(file_.binary ? SourceLoc{file_.name} : value.where(), message,
                     "this breaks a rule of glTF 2.0: repair the entry, or export the file again");
@@ -58,6 +112,8 @@ private:
 
     void checkMember(const Value& value, const Rule& rule, const Trail& trail) {
         switch (rule.shape) {
+            case Shape::Any:
+                return;
             case Shape::Flag:
                 if (!value.isBool()) wrongType(rule, value, "true or false", trail);
                 return;
@@ -127,7 +183,10 @@ private:
     }
 
     void checkInteger(const Value& value, const Rule& rule, const Trail& trail) const {
-        if (checkWhole(value, rule, trail)) checkNumber(value, rule, trail, "an integer");
+        if (!checkWhole(value, rule, trail) || !checkNumber(value, rule, trail, "an integer")) return;
+        if (rule.oneOf.empty() || std::count(rule.oneOf.begin(), rule.oneOf.end(), int(value.number()))) return;
+        breach(rule, value,
+               fmt::format("'{}' is {}; known are {}", rule.key, value.number(), fmt::join(rule.oneOf, ", ")), trail);
     }
 
     std::size_t listSize(std::string_view list) const {
@@ -148,6 +207,11 @@ private:
 
     void checkMap(const Value& value, const Rule& rule, const Trail& trail) {
         if (!value.isObject()) return wrongType(rule, value, "an object", trail);
+        if (value.members().empty()) {
+            Rule mild = rule;
+            mild.harmless = true;
+            breach(mild, value, fmt::format("'{}' is empty", rule.key), trail);
+        }
         for (const Member& member : value.members()) {
             Rule each{.key = member.key.c_str(), .shape = Shape::Index, .list = rule.list};
             checkIndex(member.value, each, trail);
@@ -179,10 +243,17 @@ private:
     }
 
     const File& file_;
+    std::set<std::string, std::less<>> declared_;    ///< In extensionsUsed
+    std::set<std::string, std::less<>> undeclared_;  ///< Told already
+    std::vector<Surplus> surplus_;
 };
 
 }  // namespace
 
-void checkSchema(const File& file) { Walk(file).checkObject(file.json, documentRules(), Trail{}); }
+void checkSchema(const File& file) {
+    Walk walk(file);
+    walk.checkObject(file.json, documentRules(), Trail{});
+    walk.tellSurplus();
+}
 
 }  // namespace crevice::gltf

@@ -6,7 +6,7 @@
 
 namespace crevice::gltf {
 
-enum class Shape { Flag, Integer, Number, Text, Index, Object, Numbers, Indices, Objects, IndexMap, IndexMaps };
+enum class Shape { Any, Flag, Integer, Number, Text, Index, Object, Numbers, Indices, Objects, IndexMap, IndexMaps };
 
 struct Rule {
     const char* key = "";
@@ -18,6 +18,7 @@ struct Rule {
     const char* list = nullptr;       ///< Index …: into which list of the document.
     std::span<const Rule> rules{};    ///< Object …: what it may hold.
     bool harmless = false;            ///< A breach changes no picture: a fault.
+    std::span<const int> oneOf{};     ///< Integer: which ones there are, unless it is empty.
     const char* words = nullptr;      ///< Text: " A B C ", other words are faults (readers may know more).
 };
 

@@ -44,7 +44,16 @@ constexpr Rule above(const char* key, double min, bool needed = false) {
     return {.key = key, .required = needed, .min = min, .aboveMin = true};
 }
 
+// Words of OpenGL, of which there are few.
+constexpr int kTargets[] = {34962, 34963}, kMagFilters[] = {9728, 9729};
+constexpr int kMinFilters[] = {9728, 9729, 9984, 9985, 9986, 9987}, kWraps[] = {10497, 33071, 33648};
+constexpr Rule oneOf(const char* key, std::span<const int> values) {
+    return {.key = key, .shape = S::Integer, .harmless = true, .oneOf = values};
+}
+constexpr Rule any(const char* key) { return {.key = key, .shape = S::Any}; }
+
 constexpr Rule kAsset[] = {required({.key = "version", .shape = S::Text}),
+                           any("minVersion"),
                            {.key = "generator", .shape = S::Text, .harmless = true},
                            {.key = "copyright", .shape = S::Text, .harmless = true}};
 
@@ -78,7 +87,7 @@ constexpr Rule kBufferView[] = {index("buffer", "buffers", true),
                                 size("byteOffset"),
                                 size("byteLength", 1, true),
                                 {.key = "byteStride", .shape = S::Integer, .min = 4, .max = 252},
-                                {.key = "target", .shape = S::Integer, .min = 34962, .max = 34963, .harmless = true},
+                                oneOf("target", kTargets),
                                 object("extensions", kViewExtensions),
                                 kName};
 
@@ -92,14 +101,11 @@ constexpr Rule kCamera[] = {words("type", " perspective orthographic ", true), o
                             object("orthographic", kOrthographic), kName};
 
 constexpr Rule kImage[] = {{.key = "uri", .shape = S::Text},
-                           {.key = "mimeType", .shape = S::Text, .harmless = true},
+                           words("mimeType", " image/jpeg image/png image/webp "),
                            index("bufferView", "bufferViews"),
                            kName};
-constexpr Rule kSampler[] = {{.key = "magFilter", .shape = S::Integer, .min = 9728, .max = 9729, .harmless = true},
-                             {.key = "minFilter", .shape = S::Integer, .min = 9728, .max = 9987, .harmless = true},
-                             {.key = "wrapS", .shape = S::Integer, .min = 10497, .max = 33648, .harmless = true},
-                             {.key = "wrapT", .shape = S::Integer, .min = 10497, .max = 33648, .harmless = true},
-                             kName};
+constexpr Rule kSampler[] = {oneOf("magFilter", kMagFilters), oneOf("minFilter", kMinFilters), oneOf("wrapS", kWraps),
+                             oneOf("wrapT", kWraps), kName};
 constexpr Rule kWebp[] = {index("source", "images", true)};
 constexpr Rule kTextureExtensions[] = {object("EXT_texture_webp", kWebp)};
 constexpr Rule kTexture[] = {index("sampler", "samplers"), index("source", "images"),
@@ -182,7 +188,8 @@ constexpr Rule kDocument[] = {object("asset", kAsset, true),   index("scene", "s
                               objects("materials", kMaterial), objects("meshes", kMesh),
                               objects("nodes", kNode),         objects("samplers", kSampler),
                               objects("scenes", kScene),       objects("skins", kSkin),
-                              objects("textures", kTexture),   object("extensions", kDocumentExtensions)};
+                              objects("textures", kTexture),   object("extensions", kDocumentExtensions),
+                              any("extensionsUsed"),           any("extensionsRequired")};
 
 }  // namespace
 
