@@ -77,6 +77,65 @@ std::size_t verticesToDraw(const Scene& scene) {
     return count;
 }
 
+/// Where the camera stands, from the centre of the bounds along the view's axes.
+struct Stand {
+    float distance = 0, right = 0, up = 0;
+};
+
+/// The points along right, up and towards the viewer, from the centre.
+std::vector<glm::vec3> inAxes(std::span<const glm::vec3> points, const glm::vec3& centre, float scale) {
+    const Axes axes;
+    std::vector<glm::vec3> result;
+    for (const glm::vec3& point : points) {
+        const glm::vec3 c = scale * (point - centre);
+        result.emplace_back(glm::dot(c, axes.right), glm::dot(c, axes.up), glm::dot(c, axes.backward));
+    }
+    return result;
+}
+
+// Every point must lie inside the frustum. A camera moved sideways by x to a distance D from the centre sees a point
+// (r to the right, t towards it) when |r - x| <= tanH (D - t): the point farthest out on each side bounds D, and x
+// makes both bounds equal. Up and down likewise.
+Stand closestStand(std::span<const glm::vec3> points, float tanH, float tanV) {
+    constexpr float kLeast = std::numeric_limits<float>::lowest();
+    float rightmost = kLeast, leftmost = kLeast, highest = kLeast, lowest = kLeast;
+    for (const glm::vec3& point : points) {
+        rightmost = std::max(rightmost, point.z + point.x / tanH);
+        leftmost = std::max(leftmost, point.z - point.x / tanH);
+        highest = std::max(highest, point.z + point.y / tanV);
+        lowest = std::max(lowest, point.z - point.y / tanV);
+    }
+    return {.distance = 0.5f * std::max(rightmost + leftmost, highest + lowest),
+            .right = 0.5f * tanH * (rightmost - leftmost),
+            .up = 0.5f * tanV * (highest - lowest)};
+}
+
+// The place along one axis from which the farthest points on both sides are as far from the picture's middle. `start`
+// is one from which all are seen.
+float centred(std::span<const glm::vec3> points, int axis, float tangent, float distance, float start) {
+    float low = start - 2 * tangent * distance, high = start + 2 * tangent * distance;
+    for (int step = 0; step < 40; ++step) {
+        const float middle = 0.5f * (low + high);
+        float most = std::numeric_limits<float>::lowest(), least = std::numeric_limits<float>::max();
+        for (const glm::vec3& point : points) {
+            const float place = (point[axis] - middle) / std::max(distance - point.z, 1e-6f * distance);
+            most = std::max(most, place);
+            least = std::min(least, place);
+        }
+        (most + least > 0 ? low : high) = middle;
+    }
+    return 0.5f * (low + high);
+}
+
+Camera cameraAt(const Stand& stand, const Aabb& bounds, float fovY) {
+    const Axes axes;
+    const glm::vec3 target = bounds.centre() + stand.right * axes.right + stand.up * axes.up;
+    Camera camera = Camera::lookAt(target + stand.distance * axes.backward, target);
+    camera.fovY = fovY;
+    fitNearFar(camera, bounds);
+    return camera;
+}
+
 }  // namespace
 
 std::vector<glm::vec3> outlineOf(const Scene& scene) {
@@ -101,38 +160,24 @@ std::vector<glm::vec3> outlineOf(const Scene& scene) {
 }
 
 Camera frameOutline(std::span<const glm::vec3> outline, const Aabb& bounds, float fovY, float aspect) {
-    Aabb box = bounds;
-    if (box.empty) box.add(glm::vec3(0));
-    const Axes axes;
-    const auto& [backward, right, up] = axes;
-    const float tanV = std::tan(0.5f * fovY);
-    const float tanH = tanV * aspect;
-
-    // Every point must lie inside the frustum. A camera moved sideways by x to a distance D from the centre sees a
-    // point (r to the right, t towards it) when |r - x| <= tanH (D - t): the point farthest out on each side bounds
-    // D, and x makes both bounds equal. Up and down likewise.
-    constexpr float kLeast = std::numeric_limits<float>::lowest();
-    float rightmost = kLeast, leftmost = kLeast, highest = kLeast, lowest = kLeast;
-    const std::array<glm::vec3, 8> boxCorners = corners(box);
-    for (const glm::vec3& point : outline.empty() ? std::span<const glm::vec3>(boxCorners) : outline) {
-        const glm::vec3 c = kFrameMargin * (point - box.centre());
-        const float towards = glm::dot(c, backward);
-        const float sideways = glm::dot(c, right) / tanH, upwards = glm::dot(c, up) / tanV;
-        rightmost = std::max(rightmost, towards + sideways);
-        leftmost = std::max(leftmost, towards - sideways);
-        highest = std::max(highest, towards + upwards);
-        lowest = std::max(lowest, towards - upwards);
-    }
-    float distance = 0.5f * std::max(rightmost + leftmost, highest + lowest);
-    if (!(distance > 0)) distance = box.diagonal() > 0 ? box.diagonal() : 1;  // a single point
-    const glm::vec3 target =
-        box.centre() + 0.5f * (tanH * (rightmost - leftmost) * right + tanV * (highest - lowest) * up);
-    Camera camera = Camera::lookAt(target + distance * backward, target);
-    camera.fovY = fovY;
-    fitNearFar(camera, box);
-    return camera;
+    if (outline.empty()) return frameBounds(bounds, fovY, aspect);
+    // The margin is kept at the picture's edges: a model that points at the camera would lose its size to one in depth.
+    const float tanV = std::tan(0.5f * fovY) / kFrameMargin;
+    const std::vector<glm::vec3> points = inAxes(outline, bounds.centre(), 1);
+    Stand stand = closestStand(points, tanV * aspect, tanV);
+    if (!(stand.distance > 0)) stand.distance = bounds.diagonal() > 0 ? bounds.diagonal() : 1;  // a single point
+    stand.right = centred(points, 0, tanV * aspect, stand.distance, stand.right);
+    stand.up = centred(points, 1, tanV, stand.distance, stand.up);
+    return cameraAt(stand, bounds, fovY);
 }
 
-Camera frameBounds(const Aabb& bounds, float fovY, float aspect) { return frameOutline({}, bounds, fovY, aspect); }
+Camera frameBounds(const Aabb& bounds, float fovY, float aspect) {
+    Aabb box = bounds;
+    if (box.empty) box.add(glm::vec3(0));
+    const float tanV = std::tan(0.5f * fovY);
+    Stand stand = closestStand(inAxes(corners(box), box.centre(), kFrameMargin), tanV * aspect, tanV);
+    if (!(stand.distance > 0)) stand.distance = 1;  // a single point
+    return cameraAt(stand, box, fovY);
+}
 
 }  // namespace crevice
