@@ -1,7 +1,8 @@
 // Renders the depth of shadow casters as one light sees them: the first directional light, or the first spot light.
 #include <glm/gtc/matrix_transform.hpp>
 
-#include "flow/FrameBlocks.h"
+#include "flow/CocosMacros.h"
+#include "flow/CocosShadow.h"
 #include "flow/RenderStage.h"
 #include "flow/ShadowView.h"
 
@@ -23,12 +24,8 @@ public:
                 {.min = 0, .max = 10, .unit = "texels", .help = "Shift along the normal before the look-up."});
     }
     void declare(StageIo& io) override {
-        // Cocos' shadow blocks stay empty: its effects are drawn without shadows (docs/cocos-runtime.md).
-        if (isCocos(io.profile())) {
-            if (io.hasTarget("cc_shadowMap")) io.depth("cc_shadowMap", DepthUse::Write);
-            return;
-        }
-        draws_ = true;
+        profile_ = io.profile();
+        if (isCocos(profile_)) return declareCocos(io);
         io.depth(light_ == kSpot ? "cc_spotLightingMap" : "cc_shadowMap", DepthUse::Write);
         camera_ = io.block<CameraBlock>("CCCamera");
         if (light_ == kSpot) {
@@ -36,14 +33,14 @@ public:
         } else {
             shadow_ = io.block<ShadowBlock>("CCShadow");
         }
-        queue_ = io.queue("shadow-caster", QueueSort::FrontToBack);
+        queue_ = io.casters("standard");
     }
     void activate(StageSetup& setup) override {
         view_ = light_ == kSpot ? spotShadowView(setup.scene(), setup.sceneBounds())
                                 : directionalShadowView(setup.scene(), setup.sceneBounds());
     }
     void render(FrameContext& frame) override {
-        if (!draws_) return;
+        if (isCocos(profile_)) return renderCocos(frame);
         uploadForLighting(frame);
         if (!view_) return;
         // Casters see the light as their camera; the frame's own camera is back when the next stage begins.
@@ -56,6 +53,25 @@ public:
     }
 
 private:
+    /// Cocos' maps hold depth as a colour, which its casters write; a document without a map has no shadows.
+    void declareCocos(StageIo& io) {
+        const std::string map(shadowMapName(profile_, light_ == kSpot)), depth(shadowDepthName(light_ == kSpot));
+        if (!io.hasTarget(map)) return;
+        draws_ = true;
+        io.color(map);
+        io.depth(depth, DepthUse::Write);
+        shadow_ =
+            profile_ == Profile::Cocos36 ? io.block<ShadowBlock36>("CCShadow") : io.block<ShadowBlock>("CCShadow");
+        queue_ = io.casters("builtin-standard");
+    }
+    void renderCocos(FrameContext& frame) {
+        if (!draws_ || !view_) return;
+        const Light* light = light_ == kSpot ? shadowedSpot(frame.scene()) : mainLight(frame.scene());
+        frame.uploadBytes(shadow_,
+                          shadowBlock(profile_, &*view_, light,
+                                      {.bias = bias_, .pcf = pcfType(pcf_), .size = glm::vec2(frame.extent())}));
+        frame.drawQueue(queue_, view_->view, view_->projection * view_->view);
+    }
     void uploadForLighting(FrameContext& frame) {
         const glm::vec2 size(frame.extent());
         const glm::mat4 viewProj = view_ ? view_->projection * view_->view : glm::mat4(1);
@@ -79,7 +95,8 @@ private:
         frame.upload(shadow_, block);
     }
 
-    bool draws_ = false;
+    Profile profile_ = Profile::Crevice;
+    bool draws_ = false;  ///< Under a Cocos profile: there is a map.
     int light_ = kDirectional;
     int pcf_ = 1;
     float bias_ = 0.0008f;

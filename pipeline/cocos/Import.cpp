@@ -63,13 +63,20 @@ public:
         checkClass(pipeline);
         ImportTargets targets(version_.isV33());
         targets.addOf(pipeline, project_, problems_);
-        StageImporter stages(request_, version_, project_, targets, problems_);
+        StageImporter stages(request_, version_, project_, targets, isForward(pipeline), problems_);
         Value flows = Value::makeArray();
         for (const RppFlow& flow : pipeline.flows) addFlow(flow, stages, flows);
         return {pipeline.name, readableJson(makeDocument(pipeline, targets, std::move(flows))), version_};
     }
 
 private:
+    static bool isForward(const RppPipeline& pipeline) {
+        for (const RppFlow& flow : pipeline.flows)
+            for (const RppStage& stage : flow.stages)
+                if (stage.type == "ForwardStage") return true;
+        return false;
+    }
+
     void checkClass(RppPipeline& pipeline) {
         const bool builtin = isOneOf(pipeline.type, {"ForwardPipeline", "DeferredPipeline"});
         if (pipeline.flows.empty() && builtin) {

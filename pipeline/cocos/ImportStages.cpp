@@ -27,7 +27,6 @@ struct LeftOut {
     const char* why;
 };
 constexpr LeftOut kLeftOut[] = {
-    {"ShadowStage", "effects of Cocos are drawn without shadow maps"},
     {"BloomStage", "the engine draws it only where bloom is switched on by a script"},
     {"ReflectionProbeStage", "reflection probes are not drawn"},
     {"UIStage", "user interfaces are not drawn"},
@@ -42,8 +41,13 @@ std::string quoted(const std::vector<std::string>& words) {
 }  // namespace
 
 StageImporter::StageImporter(const ImportRequest& request, const VersionChoice& version, Project& project,
-                             ImportTargets& targets, Problems& problems)
-    : request_(request), version_(version), project_(project), targets_(targets), problems_(problems) {}
+                             ImportTargets& targets, bool forward, Problems& problems)
+    : request_(request),
+      version_(version),
+      project_(project),
+      targets_(targets),
+      forward_(forward),
+      problems_(problems) {}
 
 std::vector<Value> StageImporter::translate(const RppStage& stage) {
     using Translate = std::vector<Value> (StageImporter::*)(const RppStage&);
@@ -52,22 +56,41 @@ std::vector<Value> StageImporter::translate(const RppStage& stage) {
         Translate translate;
     };
     static constexpr Known kKnown[] = {
-        {"GbufferStage", &StageImporter::geometryStage},        {"ForwardStage", &StageImporter::geometryStage},
-        {"LightingStage", &StageImporter::lightingStage},       {"PostprocessStage", &StageImporter::postProcessStage},
-        {"PostProcessStage", &StageImporter::postProcessStage},
+        {"ShadowStage", &StageImporter::shadowStage},           {"GbufferStage", &StageImporter::geometryStage},
+        {"ForwardStage", &StageImporter::geometryStage},        {"LightingStage", &StageImporter::lightingStage},
+        {"PostprocessStage", &StageImporter::postProcessStage}, {"PostProcessStage", &StageImporter::postProcessStage},
     };
     for (const Known& known : kKnown) {
         if (stage.type == known.type) return (this->*known.translate)(stage);
     }
     for (const LeftOut& left : kLeftOut) {
         // Classes of these names that a plugin brings are run.
-        if (stage.type != left.type || (left.type != std::string("ShadowStage") && factsOf(stage.type))) continue;
+        if (stage.type != left.type || factsOf(stage.type)) continue;
         problems_.note(stage.where, fmt::format("stage '{}' is left out: {}", stage.type, left.why));
         return {};
     }
     if (factsOf(stage.type)) return userStage(stage);
     unknownClass(stage);
     return {};
+}
+
+/// One stage for the main light; where lights are drawn one by one, before it one for the first spot light.
+std::vector<Value> StageImporter::shadowStage(const RppStage& stage) {
+    noteFields(stage, {});
+    std::vector<Value> stages;
+    if (forward_) {
+        targets_.addShadowMap(version_.isV33() ? "cc_spotLightingMap" : "cc_spotShadowMap", "spotShadowDepth");
+        RppStage named = stage;
+        named.name = "SpotShadowStage";
+        Value spot = begin("ShadowStage", named);
+        Value params = Value::makeObject();
+        params.set("light", word("spot"));
+        spot.set("params", std::move(params));
+        stages.push_back(std::move(spot));
+    }
+    targets_.addShadowMap("cc_shadowMap", "shadowDepth");
+    stages.push_back(begin("ShadowStage", stage));
+    return stages;
 }
 
 std::vector<Value> StageImporter::geometryStage(const RppStage& stage) {

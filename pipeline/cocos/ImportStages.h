@@ -12,13 +12,15 @@ namespace crevice::cocos {
 
 class StageImporter {
 public:
+    /// `forward`: the pipeline lights while it draws.
     StageImporter(const ImportRequest& request, const VersionChoice& version, Project& project, ImportTargets& targets,
-                  Problems& problems);
+                  bool forward, Problems& problems);
 
     /// Our stages for one of Cocos', each an object of the document. Empty for those that are left out, with a note.
     std::vector<Value> translate(const RppStage& stage);
 
 private:
+    std::vector<Value> shadowStage(const RppStage& stage);
     std::vector<Value> geometryStage(const RppStage& stage);
     std::vector<Value> lightingStage(const RppStage& stage);
     std::vector<Value> postProcessStage(const RppStage& stage);
@@ -37,6 +39,7 @@ private:
     const VersionChoice& version_;
     Project& project_;
     ImportTargets& targets_;
+    bool forward_;
     Problems& problems_;
     std::set<std::string> names_;
 };

@@ -68,6 +68,15 @@ void ImportTargets::addSized(const std::string& name, const std::string& format,
         list_.find(name)->set("size", numbers({width, height}));
 }
 
+void ImportTargets::addShadowMap(const std::string& name, const std::string& depth) {
+    constexpr double kSize = 1024;  // the engine's default
+    addSized(name, "R32F", kSize, kSize, "depth as the light sees it");
+    list_.find(name)->set("clear", numbers({1, 1, 1, 1}));
+    list_.find(name)->set("sampler", word("point-clamp"));
+    addSized(depth, "D32F", kSize, kSize, "");
+    list_.find(depth)->set("clear", Value::makeNumber(1));
+}
+
 void ImportTargets::addOcclusion(const std::string& name, bool v33) {
     if (has(name)) return;
     add(name, v33 ? "R8" : "RGBA8", "1 = open, 0 = occluded");

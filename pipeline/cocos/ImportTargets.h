@@ -21,6 +21,8 @@ public:
     void add(const std::string& name, const std::string& format, const std::string& help);
     /// The occlusion map of the article and the demo.
     void addOcclusion(const std::string& name, bool v33);
+    /// A map of a light's, and the depth buffer that belongs to it.
+    void addShadowMap(const std::string& name, const std::string& depth);
     /// renderTextures and textures of the pipeline: sizes from the .rt file where it exists.
     void addOf(const RppPipeline& pipeline, Project& project, Problems& problems);
     Value take() { return std::move(list_); }

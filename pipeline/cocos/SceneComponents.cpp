@@ -40,6 +40,16 @@ glm::vec3 forwardOf(const glm::mat4& world) {
     return length > 0 ? -z / length : glm::vec3(0, 0, -1);
 }
 
+/// Lights have numbers of their own from 3.4 on.
+std::optional<LightShadow> readShadow(const FieldReader& fields) {
+    if (!fields.find("_shadowBias") && !fields.find("_shadowPcf")) return std::nullopt;
+    const LightShadow usual;
+    return LightShadow{.bias = float(fields.number("_shadowBias", double(usual.bias))),
+                       .normalBias = float(fields.number("_shadowNormalBias", 0)),
+                       .pcf = int(std::clamp<std::int64_t>(fields.integer("_shadowPcf", 0), 0, 3)),
+                       .saturation = float(std::clamp(fields.number("_shadowSaturation", 1), 0.0, 1.0))};
+}
+
 /// Luminous flux of a sphere of 1 candela per m²: 4 pi² r².
 double fluxPerLuminance(double size) { return 4 * kPi * kPi * size * size; }
 
@@ -117,6 +127,7 @@ std::optional<Light> readLight(const Value& component, const glm::mat4& world, b
                 : fields.number("_illuminanceLDR", 65000 * exposureOf(std::log2(16.0 * 16 * 125))) / exposure;
         light.intensity = float(lux);
         light.castsShadow = fields.boolean("_shadowEnabled", true);
+        light.shadow = readShadow(fields);
         return light;
     }
     const bool spot = type == "cc.SpotLight";
@@ -134,39 +145,8 @@ std::optional<Light> readLight(const Value& component, const glm::mat4& world, b
     light.range = float(std::max(0.0, fields.number("_range", 1)));
     light.outerAngle = float(degrees(std::clamp(fields.number("_spotAngle", 60), 2.0, 180.0)) / 2);
     light.castsShadow = fields.boolean("_shadowEnabled", false);
+    if (spot) light.shadow = readShadow(fields);
     return light;
-}
-
-Ambient readAmbient(const Value& info, bool hdr, double exposure, Problems& problems) {
-    const FieldReader fields(info, problems);
-    const glm::vec4 sky(0.2f, 0.5f, 0.8f, 1), ground(0.2f, 0.2f, 0.2f, 1);
-    if (hdr) {
-        const auto lux = float(fields.number(fields.firstOf({"_skyIllumHDR", "_skyIllum"}), 20000));
-        return {
-            glm::vec3(readVector(info, fields.firstOf({"_skyColorHDR", "_skyColor"}), sky, problems)) * lux,
-            glm::vec3(readVector(info, fields.firstOf({"_groundAlbedoHDR", "_groundAlbedo"}), ground, problems)) * lux};
-    }
-    const auto strength = float(fields.number("_skyIllumLDR", 0.5208) / exposure);
-    return {glm::vec3(readVector(info, "_skyColorLDR", sky, problems)) * strength,
-            glm::vec3(readVector(info, "_groundAlbedoLDR", ground, problems)) * strength};
-}
-
-Fog readFog(const Value& info, Problems& problems) {
-    const FieldReader fields(info, problems);
-    Fog fog;
-    if (!fields.boolean("_enabled", false)) return fog;
-    constexpr FogType kTypes[] = {FogType::Linear, FogType::Exp, FogType::Exp2};
-    const std::int64_t type = fields.integer("_type", 0);
-    if (type < 0 || type > 2) {
-        problems.note(info.where(), "layered fog is left out");
-        return fog;
-    }
-    fog.type = kTypes[type];
-    fog.color = glm::vec3(readVector(info, "_fogColor", {0.78f, 0.78f, 0.78f, 1}, problems));
-    fog.start = float(fields.number("_fogStart", 0.5));
-    fog.end = float(fields.number("_fogEnd", 300));
-    fog.density = float(fields.number("_fogDensity", 0.3));
-    return fog;
 }
 
 }  // namespace crevice::cocos

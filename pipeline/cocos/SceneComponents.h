@@ -22,8 +22,6 @@ ImportedCamera readCamera(const Value& component, const glm::mat4& world, Proble
 /// the component's LDR strength is divided by `exposure`, so that the product is the same.
 std::optional<Light> readLight(const Value& component, const glm::mat4& world, bool hdr, double exposure,
                                Problems& problems);
-Ambient readAmbient(const Value& info, bool hdr, double exposure, Problems& problems);
-Fog readFog(const Value& info, Problems& problems);
 /// Position, rotation and scale of a node.
 glm::mat4 readTransform(const Value& node, Problems& problems);
 glm::vec4 readVector(const Value& object, std::string_view key, const glm::vec4& otherwise, Problems& problems);

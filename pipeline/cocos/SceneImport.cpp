@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "cocos/SceneComponents.h"
+#include "cocos/SceneGlobals.h"
 #include "cocos/SceneModels.h"
 
 namespace crevice::cocos {
@@ -18,6 +19,14 @@ constexpr int kMaxPrefabs = 1;  ///< Prefabs inside of prefabs are left out.
 
 /// Bookkeeping of nodes that draws nothing.
 constexpr std::string_view kSilent[] = {"cc.UITransform", "cc.Widget", "cc.Animation", "cc.SkeletalAnimation"};
+
+void switchOffShadows(std::vector<MaterialPass>& passes) {
+    if (passes.empty()) passes.resize(1);
+    for (MaterialPass& pass : passes) {
+        if (!pass.defines.isObject()) pass.defines = Value::makeObject();
+        pass.defines.set("CC_RECEIVE_SHADOW", Value::makeBool(false));
+    }
+}
 
 class SceneImporter {
 public:
@@ -40,12 +49,17 @@ public:
         takeCameras();
         lights_ = true;
         walk(graph, *root, glm::mat4(1), 0, 0);
-        if (globals) readGlobals(graph, *globals);
+        readGlobals(graph, globals);
         noteSkipped();
         return std::move(out_);
     }
 
 private:
+    struct Place {
+        const Value* node = nullptr;
+        glm::mat4 world{1};
+    };
+
     const Value* rootNode(const ObjectGraph& graph) {
         const Value& first = graph.root();
         const std::string type = typeOf(first);
@@ -82,7 +96,7 @@ private:
                             "flatten the scene");
             return;
         }
-        if (std::find(path_.begin(), path_.end(), &node) != path_.end()) {
+        if (std::any_of(path_.begin(), path_.end(), [&](const Place& place) { return place.node == &node; })) {
             problems_.error(node.where(), "this node is one of its own children", "let '_children' name other nodes");
             return;
         }
@@ -96,8 +110,8 @@ private:
         if (!fields.boolean("_active", true)) return;
         if (const Value* instance = prefabInstance(graph, node))
             return placePrefab(graph, node, *instance, parent, depth, prefabs);
-        path_.push_back(&node);
         const glm::mat4 world = parent * readTransform(node, problems_);
+        path_.push_back({&node, world});
         for (const Value* component : graph.resolveList(fields.list("_components"), "'_components'", problems_))
             visit(graph, *component, world, fields.text("_name", "node"));
         for (const Value* child : graph.resolveList(fields.list("_children"), "'_children'", problems_))
@@ -124,11 +138,20 @@ private:
             if (fields.boolean("_useColorTemperature", false)) ++skipped_["colour temperature of lights"];
             out_.scene.lights.push_back(std::move(*light));
         } else if (type == "cc.MeshRenderer" || type == "cc.SkinnedMeshRenderer" || type == "cc.ModelComponent") {
-            addRenderer(component, world, name);
+            addRenderer(component, placeOf(graph, component, world), name);
         } else if (std::find(std::begin(kSilent), std::end(kSilent), type) == std::end(kSilent)) {
             ++skipped_[type.empty() ? "components without a type" : type];
         }
-        (void)graph;
+    }
+
+    /// Skinned vertices are posed where the model's root is: the renderer's own node does not count.
+    glm::mat4 placeOf(const ObjectGraph& graph, const Value& component, const glm::mat4& world) {
+        if (typeOf(component) != "cc.SkinnedMeshRenderer") return world;
+        const Value* written = FieldReader(component, problems_).find("_skinningRoot");
+        const Value* root = written ? graph.resolve(*written, "'_skinningRoot'", problems_) : nullptr;
+        for (const Place& place : path_)
+            if (place.node == root) return place.world;
+        return world;
     }
 
     void addRenderer(const Value& component, const glm::mat4& world, const std::string& name) {
@@ -137,13 +160,16 @@ private:
         if (!mesh) return;
         const std::vector<ModelPart> parts = models_.mesh(mesh, fmt::format("the mesh of '{}'", name));
         const Value* materials = fields.list("_materials");
+        const bool casts = fields.integer("_shadowCastingMode", 0) != 0;
+        const bool receives = fields.integer("_shadowReceivingMode", 1) != 0;
         for (std::size_t i = 0; i < parts.size(); ++i) {
             const Value* ref = materials && i < materials->items().size() ? &materials->items()[i] : nullptr;
             out_.scene.instances.push_back({.mesh = parts[i].mesh,
-                                            .material = materialOf(ref, parts[i], name),
+                                            .material = receiving(materialOf(ref, parts[i], name), receives),
                                             .world = world,
                                             .name = name,
-                                            .flipped = glm::determinant(glm::mat3(world)) < 0});
+                                            .flipped = glm::determinant(glm::mat3(world)) < 0,
+                                            .castsShadow = casts});
         }
     }
 
@@ -158,6 +184,17 @@ private:
         if (const int own = models_.material(asset); own >= 0) return own;
         const int index = materials_.add(asset, fmt::format("the material of '{}'", name));
         return index >= 0 ? index : materials_.addDefault();
+    }
+
+    /// Whether shadows fall on it is a renderer's to say, and a macro of its material's here.
+    int receiving(int material, bool receives) {
+        std::vector<SceneMaterial>& all = out_.scene.materials;
+        if (receives || !all[std::size_t(material)].effect) return material;
+        const auto [known, isNew] = unshadowed_.try_emplace(material, int(all.size()));
+        if (!isNew) return known->second;
+        all.push_back(SceneMaterial(all[std::size_t(material)]));
+        switchOffShadows(all.back().effect->passes);
+        return known->second;
     }
 
     /// The cc.PrefabInfo of a node that stands for a prefab, or null.
@@ -238,12 +275,42 @@ private:
         exposure_ = exposureOf(ev);
     }
 
-    void readGlobals(const ObjectGraph& graph, const Value& globals) {
-        if (const Value* ambient = section(graph, globals, {"ambient", "_ambient"}))
-            out_.scene.ambient = readAmbient(*ambient, hdr_, exposure_, problems_);
-        if (const Value* fog = section(graph, globals, {"fog", "_fog"})) out_.scene.fog = readFog(*fog, problems_);
-        const Value* skybox = section(graph, globals, {"_skybox", "skybox"});
-        if (skybox && FieldReader(*skybox, problems_).boolean("_enabled", false)) ++skipped_["the skybox"];
+    void readGlobals(const ObjectGraph& graph, const Value* globals) {
+        const Value none = Value::makeObject();
+        const Value* shadows = globals ? section(graph, *globals, {"shadows", "_shadows"}) : nullptr;
+        takeShadows(readShadows(shadows ? *shadows : none, problems_));
+        if (!globals) return;
+        const Value* ambient = section(graph, *globals, {"ambient", "_ambient"});
+        if (ambient) out_.scene.ambient = readAmbient(*ambient, hdr_, exposure_, problems_);
+        if (const Value* fog = section(graph, *globals, {"fog", "_fog"}))
+            out_.scene.fog = readFog(*fog, exposure_, problems_);
+        const Value* skybox = section(graph, *globals, {"_skybox", "skybox"});
+        if (skybox && FieldReader(*skybox, problems_).boolean("_enabled", false))
+            takeSkybox(litSkybox(*skybox, hdr_, problems_),
+                       readSkyIlluminance(ambient ? *ambient : none, hdr_, exposure_, problems_));
+    }
+
+    void takeShadows(const ImportedShadows& shadows) {
+        if (shadows.planar) ++skipped_["planar shadows"];
+        for (Light& light : out_.scene.lights) {
+            light.castsShadow = light.castsShadow && shadows.maps;
+            if (!light.shadow) light.shadow = shadows.look;
+        }
+    }
+
+    void takeSkybox(const AssetRef& picture, double illuminance) {
+        const MetaAsset* asset = picture ? project_.metas().find(picture.uuid) : nullptr;
+        const std::string ending = asset ? asset->path.extension().string() : "";
+        if (ending != ".hdr" && ending != ".exr") {
+            ++skipped_["the skybox"];
+            return;
+        }
+        try {
+            out_.scene.environment = loadEnvironment(asset->path, options_.log);
+            out_.scene.environment->intensity = float(illuminance);
+        } catch (const Error& error) {
+            problems_.add(error);
+        }
     }
 
     void noteSkipped() {
@@ -260,7 +327,8 @@ private:
     std::vector<ImportedCamera> cameras_;
     std::map<std::string, std::size_t> skipped_;
     std::map<std::filesystem::path, std::unique_ptr<ObjectGraph>> prefabs_;
-    std::vector<const Value*> path_;
+    std::vector<Place> path_;        ///< From the root to the node that is visited.
+    std::map<int, int> unshadowed_;  ///< Material → the same without CC_RECEIVE_SHADOW.
     std::size_t visited_ = 0;
     bool hdr_ = true, lights_ = false;
     double exposure_ = 1;

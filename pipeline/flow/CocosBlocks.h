@@ -53,6 +53,12 @@ struct CsmBlock36 {
 };
 static_assert(sizeof(CsmBlock36) == 656);
 
+/// `CCForwardLight` of the forward pipelines: one light at a time; 3.7 added the last member.
+struct SingleLightBlock {
+    glm::vec4 position{0}, color{0}, sizeRangeAngle{0}, direction{0}, boundingSize{0};
+};
+static_assert(sizeof(SingleLightBlock) == 80);
+
 /// `CCLocal` of 3.6.1.
 struct LocalBlock36 {
     glm::mat4 world{1}, worldIT{1};

@@ -38,7 +38,8 @@ void reportQueues(const std::vector<StageProgram>& stages, const std::set<std::s
             const std::set<std::string> wanted(desc.phases.begin(), desc.phases.end());
             const bool known =
                 std::any_of(wanted.begin(), wanted.end(), [&](const auto& phase) { return phases.contains(phase); });
-            if (known || !stage.desc->enabled) continue;
+            // Scenes without casters, and lights that are all drawn at once, are common.
+            if (known || !stage.desc->enabled || queue.declaration.casters || queue.declaration.perLight) continue;
             problems.warning(
                 desc.where.line ? desc.where : stage.desc->where,
                 fmt::format("the queue of stage '{}' takes the phases {}, and no material of the scene has "

@@ -1,11 +1,9 @@
 // Cocos' rules for passes, macros and values of materials.
 #include "flow/CocosSurface.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 
-#include "flow/CocosFrame.h"
+#include "flow/CocosMacros.h"
 #include "flow/MaterialStates.h"
 
 namespace crevice {
@@ -42,15 +40,6 @@ bool isTexture(const EffectProperty& property) { return property.value.isString(
 
 }  // namespace
 
-std::string defineText(const Value& value, const std::string& name) {
-    if (value.isBool()) return value.boolean() ? "1" : "0";
-    if (value.isInteger()) return std::to_string(value.integer());
-    if (value.isString()) return value.string();
-    throw Error(value.where(),
-                fmt::format("define '{}' must be a bool, an integer or a word, found {}", name, value.typeName()),
-                "write true, false, 3 or \"word\"");
-}
-
 std::vector<ChosenPass> choosePasses(const EffectTechnique& technique, const MaterialEffect& material,
                                      const QueueDesc& queue, Problems& problems) {
     std::vector<ChosenPass> chosen;
@@ -78,20 +67,6 @@ Defines materialDefines(const MaterialEffect& material, std::size_t pass) {
     if (!own || !own->defines.isObject()) return defines;
     for (const Member& member : own->defines.members()) defines[member.key] = defineText(member.value, member.key);
     return defines;
-}
-
-Defines pipelineMacros(const PipelineDesc& desc) {
-    bool deferred = false;
-    for (const FlowDesc& flow : desc.flows)
-        for (const StageDesc& stage : flow.stages) deferred = deferred || stage.stageClass == "GbufferStage";
-    Defines macros{{"CC_PIPELINE_TYPE", deferred ? "1" : "0"},
-                   {"CC_USE_HDR", cocosHdr(desc) ? "1" : "0"},
-                   {"CC_USE_FOG", "4"},
-                   {"CC_RECEIVE_SHADOW", "0"},
-                   {"CC_SHADOW_TYPE", "0"}};
-    if (desc.macros.isObject())
-        for (const Member& member : desc.macros.members()) macros[member.key] = defineText(member.value, member.key);
-    return macros;
 }
 
 PassValues passValues(const Value& properties, const EffectPass& pass) {

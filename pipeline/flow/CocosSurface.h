@@ -27,10 +27,6 @@ std::vector<ChosenPass> choosePasses(const EffectTechnique& technique, const Mat
 /// Macros of a material's pass as text; bools are 1 and 0.
 Defines materialDefines(const MaterialEffect& material, std::size_t pass);
 
-/// Macros that the pipeline gives every effect of a Cocos profile, over the materials': CC_PIPELINE_TYPE, CC_USE_HDR,
-/// no fog, no shadows; then the document's own "macros".
-Defines pipelineMacros(const PipelineDesc& desc);
-
 /// What a material says of one pass, as the effect's properties take it: textures of the scene apart, values of
 /// `linear` properties squared (Cocos' conversion from sRGB), names that the pass does not have left out.
 struct PassValues {
@@ -38,8 +34,5 @@ struct PassValues {
     std::vector<std::pair<std::string, TextureRef>> textures;  ///< Sampler → texture of the scene.
 };
 PassValues passValues(const Value& properties, const EffectPass& pass);
-
-/// A macro's value in a document as text. Throws Error for what is no bool, integer or word.
-std::string defineText(const Value& value, const std::string& name);
 
 }  // namespace crevice

@@ -16,6 +16,10 @@ class EnvironmentGpu {
 public:
     /// Uploads and waits. Blurs the environment when it brings no cube along.
     EnvironmentGpu(Device& device, const Environment& environment);
+    /// For Cocos' effects: see CocosCube.h.
+    EnvironmentGpu(Device& device, const Environment& environment, float scale);
+
+    std::uint32_t levels() const { return cube_.desc().mips; }
 
     /// Puts everything into the slots of set 0 that exist there; GlobalSet::update() follows.
     void write(GlobalSet& globals, const GlobalLayout& layout) const;
@@ -23,7 +27,7 @@ public:
     static void writeNone(GlobalSet& globals, const GlobalLayout& layout);
 
 private:
-    GpuTexture cube_, table_;
+    GpuTexture cube_, table_, diffuse_;
     Buffer block_;
 };
 

@@ -17,6 +17,10 @@ void FrameContext::drawQueue(QueueId queue, const glm::mat4& view, const glm::ma
     execution_.drawQueue(queue, view, viewProjection);
 }
 
+void FrameContext::drawPerLight(QueueId queue) {
+    execution_.drawPerLight(queue, view_.camera.view, view_.projection * view_.camera.view);
+}
+
 void FrameContext::dispatch(DrawId draw, Groups groups) { execution_.dispatch(draw, groups); }
 
 Groups FrameContext::groupsFor(DrawId draw) const { return execution_.groupsFor(draw); }

@@ -46,12 +46,18 @@ public:
         uploadBytes(block, std::as_bytes(std::span(&data, 1)));
     }
 
+    /// The same with bytes of the block's size.
+    void uploadBytes(BlockId block, std::span<const std::byte> bytes);
+
     void draw(DrawId draw);
     /// Draws the queue as the camera sees it.
     void drawQueue(QueueId queue);
     /// Draws the queue as another viewer sees it (a light): culled and sorted by `viewProjection`. The view is for
     /// sorting.
     void drawQueue(QueueId queue, const glm::mat4& view, const glm::mat4& viewProjection);
+    /// Draws the queue once for each light that the frame's view sees, with that light alone in CCForwardLight and its
+    /// map in CCShadow: what its reach touches. Cocos' profiles only.
+    void drawPerLight(QueueId queue);
     void dispatch(DrawId draw, Groups groups);
     /// Work groups that cover extent() with the effect's own local size.
     Groups groupsFor(DrawId draw) const;
@@ -60,8 +66,6 @@ public:
     Commands& commands();
 
 private:
-    void uploadBytes(BlockId block, std::span<const std::byte> bytes);
-
     StageExecution& execution_;
     const FrameView& view_;
     const Scene& scene_;

@@ -79,7 +79,7 @@ CameraBlock cameraBlock(const FrameView& view, const Scene& scene) {
     block.ambientGround = glm::vec4(ambient.ground, 0.0f);
     block.fogColor = glm::vec4(scene.fog.color, 1.0f);
     block.fogBase = {scene.fog.start, scene.fog.end, scene.fog.density, 0.0f};
-    block.fogAdd = {0, 0, 0, static_cast<float>(scene.fog.type)};
+    block.fogAdd.w = scene.fog.type == FogType::Layered ? 0.0f : static_cast<float>(scene.fog.type);
     return block;
 }
 

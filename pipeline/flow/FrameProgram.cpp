@@ -11,7 +11,6 @@
 #include "flow/FrameBlocks.h"
 #include "flow/ProgramCompile.h"
 #include "flow/RenderStage.h"
-#include "flow/SceneDefines.h"
 #include "flow/StageChecks.h"
 #include "flow/StageRegistry.h"
 #include "flow/Wiring.h"
@@ -55,7 +54,9 @@ void checkListsFit(const StageDesc& desc, const StageDeclaration& declaration, P
                        used == 0 ? "remove the key" : "remove the last ones, or choose another class");
     };
     check("writes", desc.writes.size(), outputs);
-    check("queues", desc.queues.size(), declaration.queues.size());
+    const auto named = std::count_if(declaration.queues.begin(), declaration.queues.end(),
+                                     [](const QueueDeclaration& queue) { return !queue.perLight; });
+    check("queues", desc.queues.size(), static_cast<std::size_t>(named));
 }
 
 std::vector<StageProgram> makePrograms(const PipelineDesc& pipeline, const StageRegistry& registry, RunInfo run,
@@ -99,7 +100,7 @@ FrameProgram::FrameProgram(PipelineDesc desc, const StageRegistry& registry, Eff
     makeStages(registry, run, problems);
     problems.throwIfErrors();
     nameGlobals();
-    compileDraws(sceneDefines(nullptr), problems);
+    compileDraws(frameDefines(desc_, nullptr), problems);
     problems.throwIfErrors();
     logOnce(problems);
 }
@@ -148,7 +149,7 @@ void FrameProgram::nameGlobals() {
 
 void FrameProgram::prepare(const Scene* scene) {
     Problems problems;
-    const Defines defines = sceneDefines(scene);
+    const Defines defines = frameDefines(desc_, scene);
     if (defines != drawDefines_) compileDraws(defines, problems);
     ProgramCompiler compiler(desc_, library_, globals_, defines);
     for (StageProgram& stage : stages_) {

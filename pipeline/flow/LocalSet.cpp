@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cassert>
 #include <cstring>
 #include <map>
 
@@ -62,48 +63,67 @@ GpuTexture storageTexture(Device& device) {
 
 LocalSet::LocalSet(Device& device, DescriptorPool& pool, SamplerCache& samplers, const DefaultTextures& defaults,
                    Profile profile)
-    : setLayout_(device, layoutBindings(profile), "set 2"),
+    : pool_(pool),
+      samplers_(samplers),
+      defaults_(defaults),
+      profile_(profile),
+      setLayout_(device, layoutBindings(profile), "set 2"),
       // A slot may be read with a larger block than the slice it holds: the last one needs room behind it.
       ring_(device, {.size = kRingBytes + kZeroBytes + kForwardLightBytes,
                      .usage = BufferUsage::Uniform,
                      .name = "local blocks"}),
       zeroes_(device, {.size = kZeroBytes, .usage = BufferUsage::Uniform, .name = "local zeroes"}),
-      set_(pool.allocate(setLayout_, "local set")) {
+      set_(pool.allocate(setLayout_, "local set")),
+      singles_(device, {.size = kSingleLights * kSlice, .usage = BufferUsage::Uniform, .name = "single lights"}) {
     std::memset(ring_.data().data() + kRingBytes, 0, kZeroBytes + kForwardLightBytes);
     std::memset(zeroes_.data().data(), 0, kZeroBytes);
     if (hasStorage(profile)) storage_ = storageTexture(device);
-    writeSlots(samplers, defaults, profile);
-    set_.update();
+    writeSlots(set_, ring_, kRingBytes + kZeroBytes, kForwardLightBytes);
 }
 
-void LocalSet::writeSlots(SamplerCache& samplers, const DefaultTextures& defaults, Profile profile) {
+void LocalSet::writeSlots(DescriptorSet& set, const Buffer& lights, std::uint64_t offset, std::uint64_t bytes) {
     std::map<std::uint32_t, std::uint64_t> largest;  // Binding → bytes of the largest block that shares it.
-    for (const LocalSlot& slot : localSlots(profile))
+    for (const LocalSlot& slot : localSlots(profile_))
         largest[slot.binding] = std::max<std::uint64_t>(largest[slot.binding], slot.size);
-    for (const LocalSlot& slot : localSlots(profile)) {
+    for (const LocalSlot& slot : localSlots(profile_)) {
         switch (slot.kind) {
             case LocalKind::DynamicBlock:
-                set_.writeUniformBuffer(slot.binding, ring_, 0, largest[slot.binding]);
+                set.writeUniformBuffer(slot.binding, ring_, 0, largest[slot.binding]);
                 break;
             case LocalKind::Block:
                 if (slot.binding == kForwardLightBinding) {
-                    set_.writeUniformBuffer(slot.binding, ring_, kRingBytes + kZeroBytes, kForwardLightBytes);
+                    set.writeUniformBuffer(slot.binding, lights, offset, bytes);
                 } else {
-                    set_.writeUniformBuffer(slot.binding, zeroes_, 0, largest[slot.binding]);
+                    set.writeUniformBuffer(slot.binding, zeroes_, 0, largest[slot.binding]);
                 }
                 break;
             case LocalKind::Sampler2D:
-                set_.writeTexture(slot.binding, defaults.black, samplers.get(samplerKey(SamplerKind::PointClamp)));
+                set.writeTexture(slot.binding, defaults_.black, samplers_.get(samplerKey(SamplerKind::PointClamp)));
                 break;
             case LocalKind::StorageImage:
-                set_.writeStorageImage(slot.binding, storage_);
+                set.writeStorageImage(slot.binding, storage_);
                 break;
         }
     }
+    set.update();
 }
 
 void LocalSet::writeLights(const ForwardLightBlock& lights) {
     ring_.write(std::as_bytes(std::span(&lights, 1)), kRingBytes + kZeroBytes);
+}
+
+void LocalSet::writeSingleLights(std::span<const SingleLightBlock> lights) {
+    assert(lights.size() <= kSingleLights);
+    for (std::size_t i = 0; i < lights.size(); ++i) singles_.write(std::as_bytes(lights.subspan(i, 1)), i * kSlice);
+}
+
+void LocalSet::useLight(std::optional<std::size_t> light) {
+    light_ = light;
+    while (light && singleSets_.size() <= *light) {
+        const std::uint64_t offset = singleSets_.size() * kSlice;
+        singleSets_.push_back(pool_.allocate(setLayout_, "local set of one light"));
+        writeSlots(singleSets_.back(), singles_, offset, kSlice);
+    }
 }
 
 void LocalSet::bind(Commands& commands, const glm::mat4& world) {
@@ -116,7 +136,7 @@ void LocalSet::bind(Commands& commands, const glm::mat4& world) {
     block.worldIT = glm::transpose(glm::inverse(world));
     ring_.write(std::as_bytes(std::span(&block, 1)), head_);
     const std::uint32_t offset = static_cast<std::uint32_t>(head_);
-    commands.bindSet(2, set_, std::span(&offset, 1));
+    commands.bindSet(2, light_ ? singleSets_[*light_] : set_, std::span(&offset, 1));
     head_ += kSlice;
 }
 

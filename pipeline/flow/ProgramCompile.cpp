@@ -7,8 +7,10 @@
 #include <cmath>
 #include <set>
 
+#include "flow/CocosMacros.h"
 #include "flow/CocosSurface.h"
 #include "flow/RenderStage.h"
+#include "flow/SceneDefines.h"
 #include "flow/Surface.h"
 #include "flow/VertexInput.h"
 #include "flow/Wiring.h"
@@ -71,6 +73,12 @@ void checkTextures(const SurfaceProgram& surface, const Scene& scene, const std:
     }
 }
 
+/// Whether a surface receives shadows is its renderer's to say; our importers write it into the material.
+bool isSwitchedOffByMaterial(const std::string& macro, const Defines& offered) {
+    const auto given = offered.find(macro);
+    return macro == "CC_RECEIVE_SHADOW" && given != offered.end() && given->second == "0";
+}
+
 void addTextures(SurfaceProgram& surface, const std::vector<std::pair<std::string, TextureRef>>& textures) {
     for (const auto& [sampler, ref] : textures) {
         for (const Wire& wire : surface.wires) {
@@ -84,10 +92,11 @@ void addTextures(SurfaceProgram& surface, const std::vector<std::pair<std::strin
 ProgramCompiler::ProgramCompiler(const PipelineDesc& desc, EffectLibrary& library, const GlobalLayout& globals,
                                  Defines sceneDefines)
     : desc_(desc), library_(library), globals_(globals) {
-    if (isCocos(desc.profile))
-        macros_ = pipelineMacros(desc);
-    else
-        sceneDefines_ = std::move(sceneDefines);
+    (isCocos(desc.profile) ? macros_ : sceneDefines_) = std::move(sceneDefines);
+}
+
+Defines frameDefines(const PipelineDesc& desc, const Scene* scene) {
+    return isCocos(desc.profile) ? pipelineMacros(desc, scene) : sceneDefines(scene);
 }
 
 const EffectVariant& ProgramCompiler::compile(const StageProgram& stage, const std::string& effect, PassChoice choice,
@@ -110,7 +119,8 @@ const EffectVariant& ProgramCompiler::compile(const StageProgram& stage, const s
         }
     }
     for (const auto& [name, value] : macros_) {
-        if (known.contains(name)) request.defines.insert_or_assign(name, value);
+        if (!known.contains(name) || isSwitchedOffByMaterial(name, offered)) continue;
+        request.defines.insert_or_assign(name, value);
     }
     if (desc.defines.isObject()) {
         Problems problems;  // each at its own place: the library knows one for all
@@ -215,7 +225,10 @@ SurfaceProgram ProgramCompiler::compileSurface(const StageProgram& stage, const 
 SurfaceProgram ProgramCompiler::compileEffectSurface(const StageProgram& stage, const QueueDeclaration& queue,
                                                      const MaterialEffect& material, Problems& problems) {
     SurfaceProgram first;
-    for (ChosenPass& chosen : choosePasses(techniqueOf(stage, material), material, queue.queue, problems)) {
+    const EffectTechnique& technique = techniqueOf(stage, material);
+    const std::vector<BlendTarget>& base = technique.passes.front().state.blendTargets;
+    if (queue.perLight && !base.empty() && base[0].blend) return first;
+    for (ChosenPass& chosen : choosePasses(technique, material, queue.queue, problems)) {
         SurfaceProgram surface;
         const EffectVariant& variant =
             compile(stage, material.effect, {material.technique, chosen.pass}, materialDefines(material, chosen.pass));

@@ -7,7 +7,8 @@ namespace crevice {
 
 class ProgramCompiler {
 public:
-    /// `sceneDefines` are offered to every effect of our own dialect, see flow/SceneDefines.h.
+    /// `sceneDefines`: see frameDefines(). Those of our own dialect are offered to every effect; under a Cocos profile
+    /// they are over what stages and materials say.
     ProgramCompiler(const PipelineDesc& desc, EffectLibrary& library, const GlobalLayout& globals,
                     Defines sceneDefines);
 
@@ -37,5 +38,8 @@ private:
     Defines macros_;  ///< The pipeline's own, over those of stages and materials.
     Defines sceneDefines_;
 };
+
+/// Macros that follow from the pipeline and the scene (null: none).
+Defines frameDefines(const PipelineDesc& desc, const Scene* scene);
 
 }  // namespace crevice

@@ -7,6 +7,7 @@
 #include <cassert>
 
 #include "core/Text.h"
+#include "flow/CocosFrame.h"
 #include "flow/FrameData.h"
 #include "flow/FrameUpload.h"
 #include "flow/LightGrid.h"
@@ -70,7 +71,7 @@ void RenderPipeline::prepare(const Scene& scene, Scene* releasing) {
     log_.write(program_.plan().notes);
     scene_ = releasing ? SceneGpu::makeReleasing(device_, samplers_, *releasing)
                        : std::make_unique<SceneGpu>(device_, samplers_, scene);
-    if (!isCocos(program_.desc().profile)) writeLights(scene);
+    writeLights(scene);
     targets_ = std::make_unique<TargetPool>(device_, program_.desc(), program_.plan());
     context_ = std::make_unique<ExecutionContext>(ExecutionContext{{device_, pool_, samplers_, defaults_},
                                                                    layouts_,
@@ -80,7 +81,8 @@ void RenderPipeline::prepare(const Scene& scene, Scene* releasing) {
                                                                    quad_,
                                                                    program_.desc().profile,
                                                                    commands_,
-                                                                   *targets_});
+                                                                   *targets_,
+                                                                   frameLights_});
     for (const PlannedStage& planned : program_.plan().stages) {
         executions_.push_back(
             std::make_unique<StageExecution>(*context_, program_.stages()[planned.use], planned, scene_.get()));
@@ -89,6 +91,7 @@ void RenderPipeline::prepare(const Scene& scene, Scene* releasing) {
 }
 
 void RenderPipeline::writeLights(const Scene& scene) {
+    if (isCocos(program_.desc().profile)) return prepareEnvironment(scene);
     const std::vector<std::byte> lights = punctualLights(scene);
     lights_ =
         Buffer(device_, {.size = lights.size(), .usage = BufferUsage::Storage, .name = "punctual lights"}, lights);
@@ -107,8 +110,11 @@ void RenderPipeline::prepareEnvironment(const Scene& scene) {
     globals_.update();  // before the old one goes
     environment_.reset();
     if (!scene.environment) return;
-    environment_ = std::make_unique<EnvironmentGpu>(device_, *scene.environment);
+    environment_ = isCocos(program_.desc().profile)
+                       ? std::make_unique<EnvironmentGpu>(device_, *scene.environment, ambientScale(scene))
+                       : std::make_unique<EnvironmentGpu>(device_, *scene.environment);
     environment_->write(globals_, program_.globals());
+    globals_.update();
 }
 
 void RenderPipeline::activate(glm::uvec2 extent) {
@@ -174,13 +180,15 @@ void RenderPipeline::render(const FrameView& frame, std::span<const std::string>
 
 void RenderPipeline::uploadFrameBlocks(const FrameView& view) {
     globals_.beginFrame();
-    const int left = uploadFrame(globals_, locals_, program_.desc(), view, scene_->scene());
-    if (left > 0 && !warnedOfLights_) {
+    frameLights_ = uploadFrame(globals_, locals_, program_.desc(), view, scene_->scene(), scene_->bounds(),
+                               environment_ ? environment_->levels() : 1);
+    if (frameLights_.left > 0 && !warnedOfLights_) {
         Problems problems;
-        problems.warning({},
-                         fmt::format("the view sees {} lights more than the {} that Cocos' CCForwardLight holds: the "
-                                     "brightest at the camera are used",
-                                     left, kForwardLights));
+        problems.warning(
+            {},
+            fmt::format("the view sees {} lights more than the {} that Cocos' pipelines have room for here: "
+                        "the brightest at the camera are used",
+                        frameLights_.left, frameLights_.single.empty() ? std::size_t(kForwardLights) : kSingleLights));
         log_.write(problems);
         warnedOfLights_ = true;
     }

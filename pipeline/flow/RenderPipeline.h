@@ -94,6 +94,7 @@ private:
     std::unique_ptr<ExecutionContext> context_;
     std::vector<std::unique_ptr<StageExecution>> executions_;
     glm::uvec2 frame_{0};  ///< Pixels of the last frame, without the guard.
+    FrameLights frameLights_;
     std::uint64_t drawsBefore_ = 0;
     bool warnedOfLights_ = false;
     std::uint32_t guard_ = 0;  ///< Pixels around it.

@@ -46,6 +46,12 @@ std::optional<ShadowView> directionalShadowView(const Scene& scene, const Aabb& 
     return result;
 }
 
+const Light* shadowedSpot(const Scene& scene) {
+    for (const Light& light : scene.lights)
+        if (light.type == LightType::Spot && light.castsShadow) return &light;
+    return nullptr;
+}
+
 std::optional<ShadowView> spotShadowView(const Scene& scene, const Aabb& bounds) {
     int punctual = 0;
     for (const Light& light : scene.lights) {

@@ -23,6 +23,9 @@ const Light* mainLight(const Scene& scene);
 /// The main light's view, its volume fitted to the bounds; nothing when there is no main light or it casts no shadow.
 std::optional<ShadowView> directionalShadowView(const Scene& scene, const Aabb& bounds);
 
+/// The first spot light that casts shadows, or null.
+const Light* shadowedSpot(const Scene& scene);
+
 /// View of the first spot light that casts shadows.
 std::optional<ShadowView> spotShadowView(const Scene& scene, const Aabb& bounds);
 

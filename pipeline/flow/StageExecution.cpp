@@ -26,6 +26,10 @@ bool needsTwoPasses(const RenderState& state) {
            !state.blendTargets.empty() && state.blendTargets[0].blend;
 }
 
+bool meet(const Aabb& a, const Aabb& b) {
+    return glm::all(glm::lessThanEqual(a.min, b.max)) && glm::all(glm::lessThanEqual(b.min, a.max));
+}
+
 std::uint32_t groupCount(std::uint32_t pixels, std::uint32_t local) { return (pixels + local - 1) / local; }
 
 }  // namespace
@@ -199,24 +203,45 @@ QueueView& StageExecution::nextView(QueueId queue) {
     return *views.views[views.used++];
 }
 
-void StageExecution::drawQueue(QueueId queue, const glm::mat4& view, const glm::mat4& viewProjection) {
-    if (!scene_ || scene_->instances().size() == 0) return;
-    const QueueProgram& program = program_.queues[queue.index];
-    const bool blended = program.declaration.queue.sort == QueueSort::BackToFront;
+const DrawList* StageExecution::bindQueue(QueueId queue, const glm::mat4& view, const glm::mat4& viewProjection) {
+    if (!scene_ || scene_->instances().size() == 0) return nullptr;
+    const QueueDeclaration& declared = program_.queues[queue.index].declaration;
+    const bool blended = declared.queue.sort == QueueSort::BackToFront;
     // Whether a Cocos material blends is its passes' business, and they were chosen when they were compiled.
     const DrawFilter filter = isCocos(context_.profile) ? DrawFilter::All
                               : blended                 ? DrawFilter::Blend
                                                         : DrawFilter::Opaque;
     QueueView& seen = nextView(queue);
-    seen.update(context_.bindings.device, *scene_, {.view = view, .viewProjection = viewProjection}, filter,
+    seen.update(context_.bindings.device, *scene_,
+                {.view = view, .viewProjection = viewProjection, .casters = declared.casters}, filter,
                 blended ? DrawOrder::BackToFront : DrawOrder::FrontToBack);
-    if (seen.list().batches.empty()) return;
+    if (seen.list().batches.empty()) return nullptr;
     scene_->bindVertices(context_.commands);
     context_.commands.bindVertexBuffer(kInstanceStream, seen.rows());
-    for (const std::uint32_t order : orders_[queue.index]) drawPasses(queue, seen.list(), order);
+    return &seen.list();
 }
 
-void StageExecution::drawPasses(QueueId queue, const DrawList& list, std::uint32_t order) {
+void StageExecution::drawQueue(QueueId queue, const glm::mat4& view, const glm::mat4& viewProjection) {
+    const DrawList* list = bindQueue(queue, view, viewProjection);
+    if (!list) return;
+    for (const std::uint32_t order : orders_[queue.index]) drawPasses(queue, *list, order);
+}
+
+void StageExecution::drawPerLight(QueueId queue, const glm::mat4& view, const glm::mat4& viewProjection) {
+    const std::vector<LitLight>& lights = context_.lights.single;
+    const DrawList* list =
+        lights.empty() || orders_[queue.index].empty() ? nullptr : bindQueue(queue, view, viewProjection);
+    if (!list) return;
+    for (std::size_t i = 0; i < lights.size(); ++i) {
+        context_.globals.upload("CCShadow", lights[i].shadow);
+        context_.locals.useLight(i);
+        for (const std::uint32_t order : orders_[queue.index]) drawPasses(queue, *list, order, &lights[i].reach);
+    }
+    context_.locals.useLight(std::nullopt);
+    context_.globals.restore();
+}
+
+void StageExecution::drawPasses(QueueId queue, const DrawList& list, std::uint32_t order, const Aabb* reach) {
     const ShaderGpu* bound = nullptr;
     bool boundFlipped = false;
     std::optional<bool> boundIndices;
@@ -230,14 +255,14 @@ void StageExecution::drawPasses(QueueId queue, const DrawList& list, std::uint32
             const bool sixteenBit = scene_->mesh(batch.mesh).sixteenBit;
             if (boundIndices != sixteenBit) scene_->bindIndices(context_.commands, sixteenBit);
             boundIndices = sixteenBit;
-            drawBatch(shader, batch, list.instances);
+            drawBatch(shader, batch, list.instances, reach);
         }
     }
 }
 
 void StageExecution::drawBatch(const ShaderGpu& shader, const DrawBatch& batch,
-                               std::span<const std::uint32_t> instances) {
-    if (shader.farSides) return drawTwoSided(shader, batch, instances);
+                               std::span<const std::uint32_t> instances, const Aabb* reach) {
+    if (shader.farSides) return drawTwoSided(shader, batch, instances, reach);
     const SceneGpu::MeshRange& mesh = scene_->mesh(batch.mesh);
     if (!shader.usesLocal) {
         context_.commands.drawIndexed(mesh.indexCount, batch.instanceCount, mesh.firstIndex, mesh.vertexOffset,
@@ -245,17 +270,19 @@ void StageExecution::drawBatch(const ShaderGpu& shader, const DrawBatch& batch,
         return;
     }
     for (std::uint32_t i = batch.firstInstance; i < batch.firstInstance + batch.instanceCount; ++i) {
+        if (reach && !meet(*reach, scene_->instances().box(instances[i]))) continue;
         context_.locals.bind(context_.commands, scene_->scene().instances[instances[i]].world);
         context_.commands.drawIndexed(mesh.indexCount, 1, mesh.firstIndex, mesh.vertexOffset, i);
     }
 }
 
 void StageExecution::drawTwoSided(const ShaderGpu& shader, const DrawBatch& batch,
-                                  std::span<const std::uint32_t> instances) {
+                                  std::span<const std::uint32_t> instances, const Aabb* reach) {
     const SceneGpu::MeshRange& mesh = scene_->mesh(batch.mesh);
     const Pipeline& far = batch.flipped ? *shader.farSidesFlipped : *shader.farSides;
     const Pipeline& near = batch.flipped ? *shader.flipped : *shader.pipeline;
     for (std::uint32_t i = batch.firstInstance; i < batch.firstInstance + batch.instanceCount; ++i) {
+        if (reach && !meet(*reach, scene_->instances().box(instances[i]))) continue;
         if (shader.usesLocal) context_.locals.bind(context_.commands, scene_->scene().instances[instances[i]].world);
         for (const Pipeline* pipeline : {&far, &near}) {
             context_.commands.bindPipeline(*pipeline);

@@ -9,6 +9,7 @@
 
 #include "flow/FrameContext.h"
 #include "flow/FrameProgram.h"
+#include "flow/FrameUpload.h"
 #include "flow/LocalSet.h"
 #include "flow/QuadMesh.h"
 #include "flow/QueueView.h"
@@ -31,6 +32,7 @@ struct ExecutionContext {
     Profile profile;
     Commands& commands;
     const TargetPool& targets;
+    const FrameLights& lights;
 };
 
 class StageExecution {
@@ -59,6 +61,7 @@ public:
     void upload(BlockId block, std::span<const std::byte> bytes);
     void draw(DrawId draw);
     void drawQueue(QueueId queue, const glm::mat4& view, const glm::mat4& viewProjection);
+    void drawPerLight(QueueId queue, const glm::mat4& view, const glm::mat4& viewProjection);
     void dispatch(DrawId draw, Groups groups);
     Groups groupsFor(DrawId draw) const;
     Commands& commands() { return context_.commands; }
@@ -82,11 +85,16 @@ private:
     void writeShaderTargets(ShaderGpu& shader, const std::vector<Wire>& wires);
     void bindShader(const ShaderGpu& shader, bool flipped);
     QueueView& nextView(QueueId queue);
-    /// The passes of one place in the order, as DrawList orders what they are drawn on.
-    void drawPasses(QueueId queue, const DrawList& list, std::uint32_t order);
-    void drawBatch(const ShaderGpu& shader, const DrawBatch& batch, std::span<const std::uint32_t> instances);
+    /// What a viewer sees of the queue, its rows bound; null when that is nothing.
+    const DrawList* bindQueue(QueueId queue, const glm::mat4& view, const glm::mat4& viewProjection);
+    /// The passes of one place in the order, as DrawList orders what they are drawn on. `reach`: null, or where a light
+    /// ends, world space.
+    void drawPasses(QueueId queue, const DrawList& list, std::uint32_t order, const Aabb* reach = nullptr);
+    void drawBatch(const ShaderGpu& shader, const DrawBatch& batch, std::span<const std::uint32_t> instances,
+                   const Aabb* reach);
     /// One instance after the other, far sides first.
-    void drawTwoSided(const ShaderGpu& shader, const DrawBatch& batch, std::span<const std::uint32_t> instances);
+    void drawTwoSided(const ShaderGpu& shader, const DrawBatch& batch, std::span<const std::uint32_t> instances,
+                      const Aabb* reach);
 
     const ExecutionContext& context_;
     StageProgram& program_;

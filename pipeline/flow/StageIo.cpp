@@ -81,6 +81,23 @@ QueueId StageIo::queue(std::string_view phase, QueueSort sort, std::string_view 
     return {static_cast<std::uint32_t>(index)};
 }
 
+QueueId StageIo::casters(std::string_view defaultEffect) {
+    const QueueId id = queue("shadow-caster", QueueSort::FrontToBack, defaultEffect);
+    declaration_.queues[id.index].casters = true;
+    return id;
+}
+
+QueueId StageIo::perLight(std::string_view phase, std::string_view defaultEffect) {
+    QueueDeclaration declared;
+    declared.queue.phases = {std::string(phase)};
+    declared.queue.sort = QueueSort::BackToFront;
+    declared.queue.where = desc_.where;
+    declared.effect = desc_.effect.empty() ? std::string(defaultEffect) : desc_.effect;
+    declared.perLight = true;
+    declaration_.queues.push_back(std::move(declared));
+    return {static_cast<std::uint32_t>(declaration_.queues.size() - 1)};
+}
+
 void StageIo::define(DrawId draw, std::string_view macro, std::string_view value) {
     assert(draw.index < declaration_.draws.size());
     declaration_.draws[draw.index].defines.insert_or_assign(std::string(macro), std::string(value));

@@ -43,7 +43,9 @@ struct DrawDeclaration {
 
 struct QueueDeclaration {
     QueueDesc queue;
-    std::string effect;  ///< Draws every scene material; "effect" of the stage in the document overrides.
+    std::string effect;     ///< Draws every scene material; "effect" of the stage in the document overrides.
+    bool casters = false;   ///< Only what casts shadows.
+    bool perLight = false;  ///< Cocos' forward pipeline: drawn once for each light, opaque materials only.
 };
 
 struct BlockDeclaration {
@@ -86,6 +88,12 @@ public:
     DrawId compute(std::string_view defaultEffect);
     /// Scene draws of one phase. The document's "queues" replace the phase and order in the order they are declared.
     QueueId queue(std::string_view phase, QueueSort sort, std::string_view defaultEffect = "standard");
+
+    /// Scene draws of phase `shadow-caster`, of what casts shadows.
+    QueueId casters(std::string_view defaultEffect);
+    /// Scene draws that FrameContext::drawPerLight() repeats, of materials whose first pass does not blend. The
+    /// document's "queues" say nothing of it.
+    QueueId perLight(std::string_view phase, std::string_view defaultEffect);
 
     /// A macro of a draw's effect, where the document gives none.
     void define(DrawId draw, std::string_view macro, std::string_view value);

@@ -14,7 +14,8 @@ struct Item {
     std::uint32_t instance = 0;
 };
 
-bool passes(const InstanceGroup& group, DrawFilter filter) {
+bool passes(const InstanceGroup& group, const DrawView& view, DrawFilter filter) {
+    if (view.casters && !group.castsShadow) return false;
     return filter == DrawFilter::All || group.blended == (filter == DrawFilter::Blend);
 }
 
@@ -42,7 +43,7 @@ std::vector<std::uint32_t> depthKeys(const InstanceTable& table, const DrawView&
 // In the order of their indices.
 std::vector<Item> visibleItems(const InstanceTable& table, const DrawView& view, DrawFilter filter, DrawOrder order) {
     std::vector<std::uint8_t> passing;
-    for (const InstanceGroup& group : table.groups()) passing.push_back(passes(group, filter) ? 1 : 0);
+    for (const InstanceGroup& group : table.groups()) passing.push_back(passes(group, view, filter) ? 1 : 0);
     if (std::find(passing.begin(), passing.end(), 1) == passing.end()) return {};
     const std::size_t count = table.size();
     std::vector<std::uint8_t> inside =

@@ -48,6 +48,7 @@ struct DrawView {
     glm::mat4 view{1};            ///< Depth is -z of a box's centre in this space.
     glm::mat4 viewProjection{1};  ///< World → clip, for culling.
     bool cull = true;
+    bool casters = false;  ///< Only what casts shadows.
     bool operator==(const DrawView&) const = default;
 };
 

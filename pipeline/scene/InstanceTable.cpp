@@ -1,4 +1,4 @@
-// Boxes are found by the matrix's absolute values, groups by a hash of mesh, material and winding.
+// Boxes are found by the matrix's absolute values, groups by a hash of mesh, material, winding and shadow.
 #include "scene/InstanceTable.h"
 
 #include <unordered_map>
@@ -7,8 +7,8 @@ namespace crevice {
 namespace {
 
 std::uint64_t keyOf(const Instance& instance) {
-    return std::uint64_t(std::uint32_t(instance.mesh)) << 32 | std::uint64_t(std::uint32_t(instance.material)) << 1 |
-           std::uint64_t(instance.flipped);
+    return std::uint64_t(std::uint32_t(instance.mesh)) << 32 | std::uint64_t(std::uint32_t(instance.material)) << 2 |
+           std::uint64_t(instance.castsShadow) << 1 | std::uint64_t(instance.flipped);
 }
 
 }  // namespace
@@ -33,11 +33,11 @@ InstanceTable::InstanceTable(const Scene& scene) {
         }
         const auto [entry, isNew] = groupIndex.emplace(keyOf(instance), std::uint32_t(groups_.size()));
         if (isNew)
-            groups_.push_back(
-                {.mesh = instance.mesh,
-                 .material = instance.material,
-                 .flipped = instance.flipped,
-                 .blended = scene.materials[std::size_t(instance.material)].alphaMode == AlphaMode::Blend});
+            groups_.push_back({.mesh = instance.mesh,
+                               .material = instance.material,
+                               .flipped = instance.flipped,
+                               .blended = scene.materials[std::size_t(instance.material)].alphaMode == AlphaMode::Blend,
+                               .castsShadow = instance.castsShadow});
         group_[i] = entry->second;
     }
 }

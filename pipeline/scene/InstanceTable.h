@@ -18,12 +18,13 @@ struct InstanceRows {
 };
 static_assert(sizeof(InstanceRows) == 48);
 
-/// Instances that can be one draw: the same mesh, material and winding.
+/// Instances that can be one draw: the same mesh, material and winding, and all cast shadows or none.
 struct InstanceGroup {
     int mesh = 0;
     int material = 0;
     bool flipped = false;
     bool blended = false;  ///< The material's alpha mode is Blend.
+    bool castsShadow = true;
 };
 
 /// One array per number, so that loops over all instances run in vector registers.

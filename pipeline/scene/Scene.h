@@ -122,9 +122,18 @@ struct Instance {
     std::string name;
     bool flipped = false;  ///< The matrix mirrors (negative determinant): front faces are clockwise in world space.
     int sourceMesh = -1;   ///< Number of the glTF mesh it is a part of; -1 = none.
+    bool castsShadow = true;
 };
 
 enum class LightType : std::uint8_t { Directional, Point, Spot };
+
+/// How a light's shadow map is looked up, in Cocos' numbers. Only its profiles use it.
+struct LightShadow {
+    float bias = 1e-5f;    ///< Towards the light, world units.
+    float normalBias = 0;  ///< World units.
+    int pcf = 0;           ///< 0 hard, 1 soft, 2 and 3 softer: PCFType.
+    float saturation = 1;  ///< 1 = black.
+};
 
 /// KHR_lights_punctual: intensity in lux (directional) or candela; range 0 = unlimited; angles in radians.
 struct Light {
@@ -137,6 +146,7 @@ struct Light {
     glm::vec3 position{0};
     glm::vec3 direction{0, 0, -1};  ///< The way the light travels, unit length.
     bool castsShadow = true;
+    std::optional<LightShadow> shadow{};  ///< Nothing: what the stage that draws the map says.
     std::string name;
 };
 
@@ -146,12 +156,14 @@ struct Ambient {
     glm::vec3 ground{0};
 };
 
-enum class FogType : std::uint8_t { None, Linear, Exp, Exp2 };
+enum class FogType : std::uint8_t { None, Linear, Exp, Exp2, Layered };  ///< Layered: Cocos' effects only.
 struct Fog {
     FogType type = FogType::None;
     glm::vec3 color{0.5f};
-    float start = 0, end = 100;  ///< Linear: world units along the view ray.
-    float density = 0.01f;       ///< Exp and exp²: per world unit.
+    float start = 0,
+          end = 100;        ///< World units along the view ray: of linear fog; Cocos' other ones begin at `start`, too.
+    float density = 0.01f;  ///< Exp and exp²: per world unit.
+    float top = 1.5f, range = 1.2f, attenuation = 4;  ///< Layered: heights in world units, and what divides distances.
 };
 
 /// What SkyboxStage shows behind everything: a vertical gradient, or nothing (the background colour).

@@ -1,6 +1,8 @@
 // Cocos' blocks, lights and units against the layouts and rules of its engine, written out by hand.
 #include "flow/CocosFrame.h"
 
+#include "flow/CocosMacros.h"
+
 #include <cstddef>
 
 #include <gtest/gtest.h>
@@ -92,7 +94,7 @@ TEST(CocosBlocks, Of361HaveItsOffsets) {
 
 TEST(CocosFrame, ConventionsAreThoseOfItsVulkanBackEnd) {
     const FrameView view = viewFrom({1, 2, 3}, 0.25f);
-    const CameraBlock36 block = cocosCamera36(view, {}, true);
+    const CameraBlock36 block = cocosCamera36(view, {}, {.hdr = true});
     EXPECT_EQ(block.position, glm::vec4(1, 2, 3, 0));  // w: both signs of y point down
     EXPECT_LT(block.proj[1][1], 0);
     EXPECT_EQ(block.nearFar, glm::vec4(0.5f, 200, 0, 0));
@@ -113,7 +115,7 @@ TEST(CocosFrame, LightArrivesExposed) {
     scene.ambient = Ambient{.sky = glm::vec3(20000, 10000, 20000), .ground = glm::vec3(4000)};
     const float exposure = 1 / 38400.0f;  // f/16, 1/125 s, ISO 100: the demo scene's
     for (const bool hdr : {false, true}) {
-        const CameraBlock block = cocosCamera33(viewFrom({}, exposure), scene, hdr);
+        const CameraBlock block = cocosCamera33(viewFrom({}, exposure), scene, {.hdr = hdr});
         EXPECT_EQ(glm::vec3(block.mainLitColor), glm::vec3(1, 0.5f, 0.25f));
         EXPECT_NEAR(block.mainLitColor.w, 1.6927, 1e-4);
         EXPECT_EQ(block.mainLitDir, glm::vec4(0, 0, -1, 0));  // w = 0: its shadow map is not drawn
@@ -125,7 +127,7 @@ TEST(CocosFrame, LightArrivesExposed) {
         EXPECT_EQ(block.exposure.z, hdr ? 1 : 0);
         EXPECT_NEAR(block.exposure.w, 38400, 1e-1);
     }
-    EXPECT_EQ(cocosCamera33(viewFrom({}, 1), {}, true).ambientSky, glm::vec4(0));
+    EXPECT_EQ(cocosCamera33(viewFrom({}, 1), {}, {.hdr = true}).ambientSky, glm::vec4(0));
 }
 
 TEST(CocosFrame, HdrIsOffFor33AndOnFor36UnlessTheDocumentSaysOtherwise) {

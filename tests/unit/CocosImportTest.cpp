@@ -118,7 +118,11 @@ TEST(CocosImport, TheDemosShapeBecomesADocument) {
     EXPECT_EQ(desc.name, "mine");
     EXPECT_EQ(desc.profile, Profile::Cocos36);
     EXPECT_EQ(desc.output, "finalColor");
-    EXPECT_EQ(stagesOf(desc), "MainFlow: GbufferStage SsaoStage LightingStage PostProcessStage; ");
+    EXPECT_EQ(stagesOf(desc),
+              "ShadowFlow: ShadowStage; MainFlow: GbufferStage SsaoStage LightingStage PostProcessStage; ");
+    EXPECT_EQ(desc.findTarget("cc_shadowMap")->format, Format::R32F);
+    EXPECT_EQ(desc.findTarget("cc_shadowMap")->size, glm::uvec2(1024, 1024));
+    EXPECT_EQ(desc.findTarget("shadowDepth")->format, Format::D32F);
     EXPECT_EQ(stage(desc, "GbufferStage").queues.at(0).phases, std::vector<std::string>{"default"});
     EXPECT_EQ(stage(desc, "LightingStage").effect, "pipeline/deferred-lighting");
     EXPECT_EQ(stage(desc, "PostProcessStage").effect, "pipeline/post-process");
@@ -126,7 +130,6 @@ TEST(CocosImport, TheDemosShapeBecomesADocument) {
     EXPECT_EQ(blended.queues.at(0).phases, (std::vector<std::string>{"default", "deferred"}));
     EXPECT_EQ(blended.queues.at(0).sort, QueueSort::BackToFront);
     EXPECT_TRUE(contains(project.notes, "stage 'BloomStage' is left out")) << project.notes;
-    EXPECT_TRUE(contains(project.notes, "stage 'ShadowStage' is left out"));
     EXPECT_TRUE(contains(project.notes, "'SsaoRenderPipeline' is a script"));
 }
 
@@ -228,10 +231,10 @@ TEST(CocosImport, EqualNamesBecomeUnique) {
 TEST(CocosImport, APipelineWithoutFlowsHasItsDefaultOnes) {
     ProjectFolder project;
     EXPECT_EQ(stagesOf(load(project.import(R"({ "__type__": "DeferredPipeline", "_flows": [] })", "3.3.1").text)),
-              "GbufferFlow: GbufferStage; LightingFlow: LightingStage "
+              "ShadowFlow: ShadowStage; GbufferFlow: GbufferStage; LightingFlow: LightingStage "
               "PostProcessStage; ");
     EXPECT_EQ(stagesOf(load(project.import(R"({ "__type__": "DeferredPipeline", "_flows": [] })", "3.6.1").text)),
-              "MainFlow: GbufferStage LightingStage PostProcessStage; ");
+              "ShadowFlow: ShadowStage; MainFlow: GbufferStage LightingStage PostProcessStage; ");
     const std::string text = errorOf([&] { project.import(R"({ "__type__": "cc.RenderPipeline", "_flows": [] })"); });
     EXPECT_TRUE(contains(text, "pipeline 'mine' has no flows")) << text;
 }
@@ -295,7 +298,9 @@ TEST(CocosImport, TexturesOfThePipelineBecomeTargets) {
 TEST(CocosImport, ForwardPipelinesDrawTwoQueues) {
     ProjectFolder project;
     const PipelineDesc desc = load(project.import(R"({ "__type__": "ForwardPipeline", "_flows": [] })").text);
-    EXPECT_EQ(stagesOf(desc), "ForwardFlow: ForwardStage TransparentStage; ");
+    EXPECT_EQ(stagesOf(desc), "ShadowFlow: SpotShadowStage ShadowStage; ForwardFlow: ForwardStage TransparentStage; ");
+    EXPECT_EQ(stage(desc, "SpotShadowStage").params.find("light")->string(), "spot");
+    EXPECT_TRUE(desc.findTarget("cc_spotShadowMap"));
     EXPECT_EQ(stage(desc, "ForwardStage").writes, std::vector<std::string>{"finalColor"});
     EXPECT_EQ(stage(desc, "ForwardStage").queues.size(), 1u);
     EXPECT_EQ(stage(desc, "TransparentStage").queues.at(0).sort, QueueSort::BackToFront);

@@ -1,6 +1,8 @@
 // Which passes of a material a queue takes, with which macros, states and values: Cocos' rules, one by one.
 #include "flow/CocosSurface.h"
 
+#include "flow/CocosMacros.h"
+
 #include <gtest/gtest.h>
 
 #include "flow/MaterialStates.h"
@@ -158,18 +160,18 @@ TEST(CocosValues, LinearColoursAreSquaredAndTexturesTakenOut) {
 TEST(CocosMacros, OfThePipelineSayHowItShades) {
     PipelineDesc desc;
     desc.profile = Profile::Cocos36;
-    EXPECT_EQ(pipelineMacros(desc).at("CC_PIPELINE_TYPE"), "0");
+    EXPECT_EQ(pipelineMacros(desc, nullptr).at("CC_PIPELINE_TYPE"), "0");
     FlowDesc flow;
     flow.stages.emplace_back().stageClass = "GbufferStage";
     desc.flows.push_back(flow);
-    const Defines macros = pipelineMacros(desc);
+    const Defines macros = pipelineMacros(desc, nullptr);
     EXPECT_EQ(macros.at("CC_PIPELINE_TYPE"), "1");
     EXPECT_EQ(macros.at("CC_USE_HDR"), "1");
     EXPECT_EQ(macros.at("CC_USE_FOG"), "4");  // none
     EXPECT_EQ(macros.at("CC_RECEIVE_SHADOW"), "0");
     desc.macros = parseJson(R"({"CC_USE_FOG": 1, "CC_USE_IBL": true})", "p");
-    EXPECT_EQ(pipelineMacros(desc).at("CC_USE_FOG"), "1");
-    EXPECT_EQ(pipelineMacros(desc).at("CC_USE_IBL"), "1");
+    EXPECT_EQ(pipelineMacros(desc, nullptr).at("CC_USE_FOG"), "1");
+    EXPECT_EQ(pipelineMacros(desc, nullptr).at("CC_USE_IBL"), "1");
 }
 
 }  // namespace

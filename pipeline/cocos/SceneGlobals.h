@@ -1,0 +1,30 @@
+// Internal to the scene importer: what belongs to the whole scene.
+#pragma once
+
+#include <optional>
+
+#include "cocos/ObjectGraph.h"
+#include "scene/Scene.h"
+
+namespace crevice::cocos {
+
+/// Without HDR the LDR strengths divided by `exposure`, so that the product is the same.
+Ambient readAmbient(const Value& info, bool hdr, double exposure, Problems& problems);
+/// What the ambient light's sky is scaled by, lux.
+double readSkyIlluminance(const Value& info, bool hdr, double exposure, Problems& problems);
+
+/// Cocos' fog colours are exposed; ours are divided by the exposure.
+Fog readFog(const Value& info, double exposure, Problems& problems);
+
+/// cc.ShadowsInfo.
+struct ImportedShadows {
+    bool maps = false;                  ///< Shadows are on, and are maps.
+    bool planar = false;                ///< They are on, and are flattened onto a plane.
+    std::optional<LightShadow> look{};  ///< Up to 3.3 lights have none of their own.
+};
+ImportedShadows readShadows(const Value& info, Problems& problems);
+
+/// cc.SkyboxInfo: the picture that lights; nothing where the sky is off or lights nothing.
+AssetRef litSkybox(const Value& info, bool hdr, Problems& problems);
+
+}  // namespace crevice::cocos
