@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "core/Files.h"
 #include "core/Text.h"
 
@@ -11,10 +13,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
-bool isInside(const fs::path& path, const fs::path& folder) {
+fs::path realPath(const fs::path& path) {
     std::error_code error;
+    const fs::path real = fs::weakly_canonical(path, error);
+    return error ? path : real;
+}
+
+bool isInside(const fs::path& real, const fs::path& folder) {
     if (folder.empty()) return false;
-    const fs::path relative = fs::weakly_canonical(path, error).lexically_relative(fs::weakly_canonical(folder, error));
+    const fs::path relative = real.lexically_relative(folder);
     return !relative.empty() && *relative.begin() != "..";
 }
 
@@ -22,8 +29,8 @@ bool isInside(const fs::path& path, const fs::path& folder) {
 
 ChunkLibrary::Found ChunkLibrary::find(const EffectAsset& effect, const std::string& name, const fs::path& folder) {
     if (effect.programs.contains(name)) return {readProgram(effect, name), {}};
-    const auto key = std::pair(folder.string(), name);
-    if (const auto it = found_.find(key); it != found_.end()) return it->second;
+    auto& known = found_[folder.native()];
+    if (const auto it = known.find(name); it != known.end()) return it->second;
     Found found;
     if (name.starts_with('/') || name.find('\0') != std::string::npos) {
         found.help = "names of chunks are relative";
@@ -41,19 +48,26 @@ ChunkLibrary::Found ChunkLibrary::find(const EffectAsset& effect, const std::str
                                      ending[1]->path.string());
     }
     if (found.source == nullptr && found.help.empty()) {
-        std::vector<std::string> known = index().names();
-        for (const auto& [program, text] : effect.programs) known.push_back(program);
-        const auto near = nearestNames(name, known);
+        std::vector<std::string> all = index().names();
+        for (const auto& [program, text] : effect.programs) all.push_back(program);
+        const auto near = nearestNames(name, all);
         if (!near.empty()) found.help = fmt::format("did you mean '{}'? ", join(near, "', '"));
         found.help += "chunk folders: ";
         std::vector<std::string> folders;
         for (const fs::path& path : roots_.chunkFolders()) folders.push_back(path.string());
         found.help += folders.empty() ? "none; give --project, --engine or --chunks" : join(folders);
     }
-    return found_[key] = found;
+    return known[name] = found;
 }
 
-bool ChunkLibrary::isOfEngine(const SourceText& source) const { return isInside(source.file, roots_.engine); }
+ChunkLibrary::ChunkLibrary(const Roots& roots) : roots_(roots), engine_(realPath(roots.engine)) {
+    for (const fs::path& folder : {roots.project, roots.engine})
+        if (!folder.empty()) own_.push_back(realPath(folder));
+    for (const fs::path& folder : roots.chunks)
+        if (!folder.empty()) own_.push_back(realPath(folder));
+}
+
+bool ChunkLibrary::isOfEngine(const SourceText& source) const { return isInside(realPath(source.file), engine_); }
 
 /// A name with a dot in front. It is meant from the including file; Cocos' own effects also write it as seen from the
 /// chunk folder (`../effects/advanced/common-functions`) or from a folder the file once stood in.
@@ -79,11 +93,9 @@ ChunkLibrary::Found ChunkLibrary::findRelative(const EffectAsset& effect, const 
 
 /// Files of the author's own folders only: an effect may not read what it was not given.
 bool ChunkLibrary::mayRead(const fs::path& path, const EffectAsset& effect) const {
-    if (isInside(path, fs::path(effect.path).parent_path())) return true;
-    if (isInside(path, roots_.project) || isInside(path, roots_.engine)) return true;
-    for (const fs::path& folder : roots_.chunks)
-        if (isInside(path, folder)) return true;
-    return false;
+    const fs::path real = realPath(path);
+    return isInside(real, realPath(fs::path(effect.path).parent_path())) ||
+           std::any_of(own_.begin(), own_.end(), [&](const fs::path& folder) { return isInside(real, folder); });
 }
 
 const SourceText* ChunkLibrary::readBeside(const std::string& name, const fs::path& folder) {
@@ -93,9 +105,7 @@ const SourceText* ChunkLibrary::readBeside(const std::string& name, const fs::pa
 }
 
 const SourceText* ChunkLibrary::readFile(const fs::path& path, const std::string& name) {
-    std::error_code error;
-    const fs::path real = fs::weakly_canonical(path, error);
-    auto& source = files_[(error ? path : real).string()];
+    auto& source = files_[nameOfSystem(path).string()];
     if (source) return source.get();
     const std::string text = readText(path, kMaxBytes);
     bytes_ += text.size();
@@ -105,6 +115,16 @@ const SourceText* ChunkLibrary::readFile(const fs::path& path, const std::string
                     "includes grow without end, or the folders hold no shaders");
     source = readSource(text, name, path.string(), path.parent_path(), 1);
     return source.get();
+}
+
+/// realPath() of a file: its folder is looked up once.
+fs::path ChunkLibrary::nameOfSystem(const fs::path& path) {
+    std::error_code error;
+    if (fs::is_symlink(path, error)) return realPath(path);
+    const fs::path folder = path.parent_path();
+    auto& real = realFolders_[folder.native()];
+    if (real.empty()) real = realPath(folder);
+    return real / path.filename();
 }
 
 const SourceText* ChunkLibrary::readProgram(const EffectAsset& effect, const std::string& name) {

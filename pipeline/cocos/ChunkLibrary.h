@@ -6,6 +6,8 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "cocos/FileIndex.h"
 #include "cocos/Roots.h"
@@ -21,7 +23,7 @@ public:
     static constexpr std::size_t kMaxBytes = 4u << 20;
     static constexpr std::size_t kMaxTotal = 256u << 20;
 
-    explicit ChunkLibrary(const Roots& roots) : roots_(roots) {}
+    explicit ChunkLibrary(const Roots& roots);
 
     struct Found {
         const SourceText* source = nullptr;
@@ -39,16 +41,20 @@ public:
 private:
     Found findRelative(const EffectAsset& effect, const std::string& name, const std::filesystem::path& folder);
     const SourceText* readFile(const std::filesystem::path& path, const std::string& name);
+    std::filesystem::path nameOfSystem(const std::filesystem::path& path);
     const SourceText* readProgram(const EffectAsset& effect, const std::string& name);
     const SourceText* readBeside(const std::string& name, const std::filesystem::path& folder);
     const FileIndex& index();
     bool mayRead(const std::filesystem::path& path, const EffectAsset& effect) const;
 
     Roots roots_;
+    std::filesystem::path engine_;            ///< As the system names it, like those of own_.
+    std::vector<std::filesystem::path> own_;  ///< The author's folders.
     std::optional<FileIndex> index_;
-    std::map<std::string, std::unique_ptr<SourceText>> files_;
+    std::map<std::string, std::filesystem::path> realFolders_;
+    std::map<std::string, std::unique_ptr<SourceText>> files_;  ///< As the system names them.
     std::map<std::pair<std::string, std::string>, std::unique_ptr<SourceText>> programs_;  ///< By effect path and name.
-    std::map<std::pair<std::string, std::string>, Found> found_;                           ///< By folder and name.
+    std::map<std::string, std::map<std::string, Found>> found_;                            ///< By folder, by name.
     std::size_t bytes_ = 0;
 };
 

@@ -5,11 +5,13 @@
 
 #include <algorithm>
 #include <deque>
+#include <optional>
 
 #include "cocos/BlockRules.h"
 #include "cocos/ChunkLibrary.h"
 #include "cocos/Fingerprint.h"
 #include "cocos/Flattener.h"
+#include "cocos/Numbering.h"
 #include "cocos/StageAnalysis.h"
 #include "core/Files.h"
 #include "effect/VariantBuilder.h"
@@ -21,7 +23,7 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t kMaxEffectBytes = 16u << 20;
 /// Flattened stages that are kept: the passes of a technique share them.
-constexpr std::size_t kKeptStages = 8;
+constexpr std::size_t kKeptStages = 24;
 
 /// With an entry, main() is ours: it hands the entry's result to the place where the stage's result goes.
 std::string_view entryText(ShaderStageBits stage) {
@@ -38,17 +40,16 @@ void appendEntry(StageText& text, const std::string& entry, const SourceLoc& whe
 }
 
 /// A text that asks how many registers its uniforms take gets the number that Cocos' compiler counts.
-void addUniformVectors(const std::vector<StageText>& texts, Defines& values) {
+void addUniformVectors(const std::vector<StageText>& texts, const std::vector<StageInterface>& interfaces,
+                       Defines& values) {
     constexpr std::string_view kAsked = "CC_EFFECT_USED_";
     const bool asked = std::any_of(texts.begin(), texts.end(), [&](const StageText& text) {
         return text.flat.text.find(kAsked) != std::string::npos;
     });
     if (!asked) return;
-    Problems said;  // when the stages are numbered
-    for (const StageText& text : texts) {
-        const char* stage = text.stage == kVertexBit ? "VERTEX" : text.stage == kFragmentBit ? "FRAGMENT" : "COMPUTE";
-        values.emplace(fmt::format("{}{}_UNIFORM_VECTORS", kAsked, stage),
-                       std::to_string(uniformVectors(readInterface(text, said))));
+    for (const StageInterface& read : interfaces) {
+        const char* stage = read.stage == kVertexBit ? "VERTEX" : read.stage == kFragmentBit ? "FRAGMENT" : "COMPUTE";
+        values.emplace(fmt::format("{}{}_UNIFORM_VECTORS", kAsked, stage), std::to_string(uniformVectors(read)));
     }
 }
 
@@ -64,31 +65,50 @@ struct CocosEffects::State {
     struct Kept {
         std::string key;
         StageText text;
+        std::optional<StageInterface> interface;  ///< Once it was asked for, with what was said of it.
+        Problems said;
     };
-    std::deque<Kept> kept;
+    std::deque<std::shared_ptr<Kept>> kept;
     std::optional<std::string> fingerprint;
 
-    StageText stageText(const EffectAsset& effect, const StagePart& part, Problems& problems);
+    std::shared_ptr<Kept> keep(const EffectAsset& effect, const StagePart& part, Problems& problems);
+    std::vector<std::shared_ptr<Kept>> keepAll(const EffectAsset& effect, const EffectPass& pass, Problems& problems);
 };
 
-StageText CocosEffects::State::stageText(const EffectAsset& effect, const StagePart& part, Problems& problems) {
-    const std::string key = fmt::format("{}\n{}\n{}", effect.path, part.reference, static_cast<int>(part.stage));
-    for (const Kept& present : kept)
-        if (present.key == key) return present.text;
+/// A stage's text, flattened or remembered; nothing where it has errors.
+std::shared_ptr<CocosEffects::State::Kept> CocosEffects::State::keep(const EffectAsset& effect, const StagePart& part,
+                                                                     Problems& problems) {
+    std::string key = fmt::format("{}\n{}\n{}", effect.path, part.reference, static_cast<int>(part.stage));
+    for (const auto& present : kept)
+        if (present->key == key) return present;
     Problems own;
-    StageText text;
+    auto stage = std::make_shared<Kept>();
     try {
         const ProgramReference reference = parseProgram(part.reference);
-        text = analyzeStage(part.stage, flattenStage(effect, reference.program, part.where, chunks, {}, own), own);
-        if (!reference.entry.empty()) appendEntry(text, reference.entry, part.where);
+        stage->text =
+            analyzeStage(part.stage, flattenStage(effect, reference.program, part.where, chunks, {}, own), own);
+        if (!reference.entry.empty()) appendEntry(stage->text, reference.entry, part.where);
     } catch (const Error& error) {
         own.add(error);
     }
     if (!own.all().empty()) problems.add(Error(own.all()));
-    if (own.hasErrors()) return {};
-    kept.push_back({key, text});
+    if (own.hasErrors()) return nullptr;
+    stage->key = std::move(key);
+    kept.push_back(stage);
     if (kept.size() > kKeptStages) kept.pop_front();
-    return text;
+    return stage;
+}
+
+/// The stages of a pass, vertex before fragment; none where one has errors.
+std::vector<std::shared_ptr<CocosEffects::State::Kept>> CocosEffects::State::keepAll(const EffectAsset& effect,
+                                                                                     const EffectPass& pass,
+                                                                                     Problems& problems) {
+    std::vector<std::shared_ptr<Kept>> stages;
+    Problems own;
+    for (const StagePart& part : partsOf(pass)) stages.push_back(keep(effect, part, own));
+    if (!own.all().empty()) problems.add(Error(own.all()));
+    if (own.hasErrors()) stages.clear();
+    return stages;
 }
 
 CocosEffects::CocosEffects(Roots roots, Options options) : state_(new State(std::move(roots), options)) {}
@@ -131,10 +151,7 @@ std::string CocosEffects::fingerprint() {
 
 std::vector<StageText> CocosEffects::flatten(const EffectAsset& effect, const EffectPass& pass, Problems& problems) {
     std::vector<StageText> texts;
-    Problems own;
-    for (const StagePart& part : partsOf(pass)) texts.push_back(state_->stageText(effect, part, own));
-    if (!own.all().empty()) problems.add(Error(own.all()));
-    if (own.hasErrors()) texts.clear();
+    for (const auto& stage : state_->keepAll(effect, pass, problems)) texts.push_back(stage->text);
     return texts;
 }
 
@@ -147,18 +164,26 @@ std::vector<DefineInfo> CocosEffects::defines(const EffectAsset& effect, const E
 std::vector<StageSource> CocosEffects::stages(const EffectAsset& effect, const EffectPass& pass,
                                               const VariantRequest& request, const BindingMap& bindings,
                                               Problems& problems) {
-    std::vector<StageText> texts = flatten(effect, pass, problems);
-    if (texts.empty()) return {};
+    const auto kept = state_->keepAll(effect, pass, problems);
+    if (kept.empty()) return {};
+    std::vector<StageText> texts;
+    std::vector<StageInterface> interfaces;
+    for (const auto& stage : kept) {
+        if (!stage->interface) stage->interface = readInterface(stage->text, stage->said);
+        if (!stage->said.all().empty()) problems.add(Error(stage->said.all()));
+        interfaces.push_back(*stage->interface);
+        texts.push_back(stage->text);
+    }
     const std::vector<StageMacro> macros = mergeMacros(texts);
     Defines values = request.defines;
     for (const auto& [name, value] : pass.embeddedMacros) values[name] = value;  // They win: Cocos merges them last.
     for (const auto& [name, value] : values)
         if (value.find('\n') != std::string::npos)
             problems.error(request.where, fmt::format("the value of define '{}' has several lines", name));
-    addUniformVectors(texts, values);
+    addUniformVectors(texts, interfaces, values);
     NumberingOptions numbering = state_->options.numbering;
     numbering.rebindByName = numbering.rebindByName && request.rebindLiterals;
-    numberStages(texts, bindings, numbering, problems);
+    numberStages(texts, interfaces, bindings, numbering, problems);
     std::vector<StageSource> sources;
     for (StageText& text : texts) {
         StageSource& source = sources.emplace_back();

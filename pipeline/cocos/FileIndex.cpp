@@ -34,13 +34,16 @@ FileIndex::FileIndex(const std::vector<fs::path>& folders, const std::string& en
                 throw Error(
                     fmt::format("the folder '{}' holds more than {} files", folders[folder].string(), kMaxFiles),
                     "name a project or engine folder, not one above it");
-            const std::string file = it->path().filename().string();
+            const std::string& path = it->path().native();
+            const std::string_view file = baseOf(path);
             if (it.depth() > 60) it.disable_recursion_pending();
             if ((file == "node_modules" || file == ".git") && it->is_directory(error)) it.disable_recursion_pending();
             if (!file.ends_with(ending) || !it->is_regular_file(error)) continue;
-            std::string name = it->path().lexically_relative(folders[folder]).generic_string();
-            name.resize(name.size() - ending.size());
-            entries_.push_back({std::move(name), it->path(), folder});
+            // The walk writes the folder's own name in front of every path.
+            std::string_view name = std::string_view(path).substr(folders[folder].native().size());
+            while (name.starts_with('/')) name.remove_prefix(1);
+            name.remove_suffix(ending.size());
+            entries_.push_back({std::string(name), it->path(), folder});
         }
         std::sort(entries_.begin() + static_cast<std::ptrdiff_t>(first), entries_.end(),
                   [](const Entry& a, const Entry& b) { return a.name < b.name; });
@@ -80,6 +83,8 @@ std::vector<std::string> FileIndex::names() const {
 }
 
 EffectNames::EffectNames(const Roots& roots) : folders_(roots.assetFolders()), files_(folders_, ".effect") {
+    std::error_code error;
+    for (fs::path& folder : folders_) folder = fs::weakly_canonical(folder, error);
     for (std::size_t i = 0; i < files_.entries().size(); ++i) named_.emplace(publicName(files_.entries()[i].name), i);
 }
 
@@ -99,7 +104,7 @@ std::optional<std::string> EffectNames::nameOf(const fs::path& path) const {
     std::error_code error;
     const fs::path real = fs::weakly_canonical(path, error);
     for (const fs::path& folder : folders_) {
-        const fs::path relative = real.lexically_relative(fs::weakly_canonical(folder, error));
+        const fs::path relative = real.lexically_relative(folder);
         if (relative.empty() || *relative.begin() == "..") continue;
         std::string name = relative.generic_string();
         if (name.ends_with(".effect")) name.resize(name.size() - 7);

@@ -228,6 +228,11 @@ void numberStages(std::vector<StageText>& stages, const BindingMap& bindings, co
                   Problems& problems) {
     std::vector<StageInterface> interfaces;
     for (const StageText& stage : stages) interfaces.push_back(readInterface(stage, problems));
+    numberStages(stages, interfaces, bindings, options, problems);
+}
+
+void numberStages(std::vector<StageText>& stages, const std::vector<StageInterface>& interfaces,
+                  const BindingMap& bindings, const NumberingOptions& options, Problems& problems) {
     const Numbers numbers = numberInterfaces(interfaces, problems);
     Rebinding rebinding(numbers, bindings, options, problems);
     for (std::size_t i = 0; i < stages.size(); ++i) {

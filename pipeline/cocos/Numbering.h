@@ -22,4 +22,8 @@ struct Numbers {
 /// numbered by kind (InterfaceKind), vertex before fragment, once per name.
 Numbers numberInterfaces(const std::vector<StageInterface>& stages, Problems& problems);
 
+/// numberStages() for texts whose interfaces were read before.
+void numberStages(std::vector<StageText>& stages, const std::vector<StageInterface>& interfaces,
+                  const BindingMap& bindings, const NumberingOptions& options, Problems& problems);
+
 }  // namespace crevice::cocos

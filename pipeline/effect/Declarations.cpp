@@ -1,6 +1,9 @@
 // Finds where a shader's text declares and mentions its interface variables.
 #include "effect/Declarations.h"
 
+#include <algorithm>
+#include <cstdint>
+
 namespace crevice {
 namespace {
 
@@ -12,7 +15,6 @@ Declarations::Declarations(const FlatSource& source) : source_(source), tokens_(
     int depth = 0;
     for (std::size_t at = 0; at < tokens_.size(); ++at) {
         const GlslToken& token = tokens_[at];
-        if (token.isName()) names_.emplace(token.text);
         if (token.directive) continue;
         if (token.text == "{" || token.text == "(") ++depth;
         if (token.text == "}" || token.text == ")") --depth;
@@ -28,7 +30,6 @@ void Declarations::readDeclaration(std::size_t& at) {
     std::vector<std::size_t> declarators;
     for (; at < tokens_.size(); ++at) {
         const GlslToken& token = tokens_[at];
-        if (token.isName()) names_.emplace(token.text);
         if (token.directive) continue;
         if (token.text == ";" && depth == 0) break;
         if (token.text == "{" && depth == 0) body = true;
@@ -68,17 +69,30 @@ SourceLoc Declarations::firstUse(std::string_view name, const std::vector<std::s
     const auto it = declared_.find(name);
     if (it == declared_.end()) return {};
     const Range& range = it->second;
+    std::vector<std::string_view> wanted;
+    if (range.instance != 0)
+        wanted.push_back(tokens_[range.instance].text);
+    else
+        wanted.assign(members.begin(), members.end());
+    if (range.instance == 0) wanted.push_back(name);
+    // Most words have another length than all that are wanted.
+    std::uint64_t lengths = 0;
+    for (const std::string_view word : wanted) lengths |= 1ull << (word.size() & 63u);
     for (std::size_t at = range.end; at < tokens_.size(); ++at) {
-        const std::string_view text = tokens_[at].text;
-        if (tokens_[at].directive || !tokens_[at].isName()) continue;
-        bool used = range.instance != 0 ? text == tokens_[range.instance].text : text == name;
-        if (range.instance == 0)
-            for (const std::string& member : members) used = used || text == member;
-        if (used) return locate(at);
+        const GlslToken& token = tokens_[at];
+        if ((lengths >> (token.text.size() & 63u) & 1u) == 0 || token.directive) continue;
+        if (std::find(wanted.begin(), wanted.end(), token.text) != wanted.end()) return locate(at);
     }
     return {};
 }
 
-std::vector<std::string> Declarations::names() const { return {names_.begin(), names_.end()}; }
+std::vector<std::string> Declarations::names() const {
+    std::vector<std::string_view> words;
+    for (const GlslToken& token : tokens_)
+        if (token.isName()) words.push_back(token.text);
+    std::sort(words.begin(), words.end());
+    words.erase(std::unique(words.begin(), words.end()), words.end());
+    return {words.begin(), words.end()};
+}
 
 }  // namespace crevice

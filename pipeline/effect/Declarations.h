@@ -1,10 +1,9 @@
 // Finds where a shader's text declares and mentions its interface variables, for error messages and plans.
 #pragma once
 
-#include <map>
-#include <set>
 #include <string>
 #include <string_view>
+#include <unordered_map>
 #include <vector>
 
 #include "core/Error.h"
@@ -22,8 +21,7 @@ public:
     SourceLoc declared(std::string_view name) const;
     /// First mention of any of the names behind their declaration; line 0 if none.
     SourceLoc firstUse(std::string_view name, const std::vector<std::string>& members) const;
-    /// True when the text has the word at all.
-    bool mentions(std::string_view name) const { return names_.contains(name); }
+    /// Every word of the text once, sorted.
     std::vector<std::string> names() const;
 
 private:
@@ -37,8 +35,7 @@ private:
 
     const FlatSource& source_;
     std::vector<GlslToken> tokens_;
-    std::map<std::string, Range, std::less<>> declared_;
-    std::set<std::string, std::less<>> names_;
+    std::unordered_map<std::string_view, Range> declared_;  ///< The names lie in the text.
 };
 
 }  // namespace crevice

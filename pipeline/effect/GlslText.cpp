@@ -1,14 +1,27 @@
 // GLSL as text: comments blanked, split into words.
 #include "effect/GlslText.h"
 
-#include <cctype>
+#include <array>
+#include <cstdint>
 
 namespace crevice {
 namespace {
 
-bool isNameStart(char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0 || c == '_'; }
-bool isNamePart(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; }
-bool isDigit(char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; }
+enum CharClass : std::uint8_t { kOther, kSpace, kLetter, kDigit };
+
+/// ASCII only, whatever the locale.
+constexpr std::array<CharClass, 256> kClasses = [] {
+    std::array<CharClass, 256> classes{};
+    for (const char c : {' ', '\t', '\n', '\v', '\f', '\r'}) classes[static_cast<unsigned char>(c)] = kSpace;
+    for (unsigned c = '0'; c <= '9'; ++c) classes[c] = kDigit;
+    for (unsigned c = 'a'; c <= 'z'; ++c) classes[c] = classes[c - 'a' + 'A'] = kLetter;
+    classes['_'] = kLetter;
+    return classes;
+}();
+
+CharClass classOf(char c) { return kClasses[static_cast<unsigned char>(c)]; }
+bool isNamePart(char c) { return classOf(c) >= kLetter; }
+bool isDigit(char c) { return classOf(c) == kDigit; }
 
 /// End of the number that begins at `at`: digits, letters, dots, and a sign behind an exponent's e.
 std::size_t numberEnd(std::string_view text, std::size_t at) {
@@ -24,7 +37,7 @@ std::size_t numberEnd(std::string_view text, std::size_t at) {
 
 }  // namespace
 
-bool GlslToken::isName() const { return !text.empty() && isNameStart(text.front()); }
+bool GlslToken::isName() const { return !text.empty() && classOf(text.front()) == kLetter; }
 
 std::string blankComments(std::string_view text) {
     std::string out(text);
@@ -52,6 +65,7 @@ std::string blankComments(std::string_view text) {
 
 std::vector<GlslToken> tokenizeGlsl(std::string_view text) {
     std::vector<GlslToken> tokens;
+    tokens.reserve(text.size() / 4);
     int line = 1;
     std::size_t lineStart = 0;
     bool directive = false, blankSoFar = true;
@@ -67,14 +81,14 @@ std::vector<GlslToken> tokenizeGlsl(std::string_view text) {
             blankSoFar = true;
             continue;
         }
-        if (std::isspace(static_cast<unsigned char>(c)) != 0 || c == '\\') {
+        if (classOf(c) == kSpace || c == '\\') {
             ++i;
             continue;
         }
         if (c == '#' && blankSoFar) directive = true;
         blankSoFar = false;
         std::size_t end = i + 1;
-        if (isNameStart(c)) {
+        if (classOf(c) == kLetter) {
             while (end < text.size() && isNamePart(text[end])) ++end;
         } else if (isDigit(c) || (c == '.' && end < text.size() && isDigit(text[end]))) {
             end = numberEnd(text, i + 1);
