@@ -155,10 +155,13 @@ private:
         const bool fits = accessor.columns == 1 && accessor.rows >= least && accessor.rows <= most;
         if (fits && (numbersOf(accessor) & allowed)) return;
         const bool wantsExtension = fits && (numbersOf(accessor) & semantic->quantized);
+        const std::string what =
+            fits ? fmt::format("'componentType' {}{}", accessor.componentType,
+                               accessor.normalized ? ", normalized," : "")
+                 : fmt::format("'type' {}", textOr(file_.item("accessors", std::size_t(index)), "type"));
         file_.fault("accessors", std::size_t(index),
-                    fmt::format("'{}' of {} is not what {}{} of meshes[{}] may be{}", fits ? "componentType" : "type",
-                                accessor.normalized ? "normalized numbers" : "numbers", inTarget ? "a target of " : "",
-                                name, mesh_, wantsExtension ? " without KHR_mesh_quantization" : ""));
+                    fmt::format("{} is not for {}{} of meshes[{}]{}", what, inTarget ? "a target of " : "", name, mesh_,
+                                wantsExtension ? " without KHR_mesh_quantization" : ""));
     }
 
     const File& file_;

@@ -17,6 +17,8 @@ void material(std::string_view input);
 void scene(std::string_view input);
 void gltf(std::string_view input);
 void image(std::string_view input);
+void cocosEffect(std::string_view input);
+void cocosAsset(std::string_view input);
 
 /// Runs `read`; an Error is printed as the program would, so that its places are tried as well.
 template <class Read>

@@ -13,8 +13,9 @@ namespace fs = std::filesystem;
 
 using Target = void (*)(std::string_view);
 
-const std::map<std::string, Target> kTargets = {{"pipeline", pipeline}, {"effect", effect}, {"material", material},
-                                                {"scene", scene},       {"gltf", gltf},     {"image", image}};
+const std::map<std::string, Target> kTargets = {
+    {"pipeline", pipeline}, {"effect", effect}, {"material", material},       {"scene", scene},
+    {"gltf", gltf},         {"image", image},   {"cocosEffect", cocosEffect}, {"cocosAsset", cocosAsset}};
 
 class Corpus : public testing::TestWithParam<std::string> {};
 

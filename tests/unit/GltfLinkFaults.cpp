@@ -107,7 +107,7 @@ std::vector<FaultCase> linkFaults() {
          {{primitive + "attributes.NORMAL", "3"}}},
         {"MESH_PRIMITIVE_ATTRIBUTES_ACCESSOR_INVALID_FORMAT",
          Fault,
-         "accessors[3]: 'componentType' of numbers is not what TEXCOORD_0",
+         "accessors[3]: 'componentType' 5123 is not for TEXCOORD_0",
          {{"accessors.3.componentType", "5123"}}},
         {"MESH_PRIMITIVE_ATTRIBUTES_ACCESSOR_INVALID_FORMAT",
          Refused,

@@ -1,0 +1,26 @@
+#!/bin/bash
+# coverage.sh BUILD CORPUS: line coverage of each target's own files by all inputs of a corpus folder (CORPUS/TARGET) and
+# of the repository. BUILD is a build with the preset fuzz-coverage. Prints rows of the table in docs/robustness.md.
+set -e
+build=$(realpath "$1"); corpus=$(realpath "${2:-.}"); source=$(realpath "$(dirname "$0")/../..")
+profdata=$(command -v llvm-profdata-14 || command -v llvm-profdata); cov=$(command -v llvm-cov-14 || command -v llvm-cov)
+export CREVICE_DATA_DIR=$source
+declare -A files=(
+  [pipeline]="plan/Pipeline(Asset|Edits|Options|Text).*|plan/TargetFields|core/Json.*"
+  [effect]="effect/(EffectAsset|EffectHeader|KeyReader|RenderStateReader|PriorityExpression|Includes|Declarations|Defines|GlslText|VariantBuilder)|core/Yaml.*"
+  [material]="effect/Material"
+  [scene]="scene/Scene(Asset|Fields|FileLookup)"
+  [gltf]="scene/Gltf.*"
+  [image]="core/(ImageFiles|Hdr|Exr|Picture)"
+  [cocosEffect]="cocos/(ChunkLibrary|CocosEffects|Conditions|EffectReflection|EngineMacros|Flattener|GlslStatements|GlslTypes|Interface.*|Macro.*|Numbering|PassReflection|Pragmas|PropertyReflection|Reflection|SourceText|Stage.*|TextConstants)"
+  [cocosAsset]="cocos/(Mtl.*|Meta.*|ObjectGraph|Rpp.*|Import.*|Scene.*|TypedValue|Uuid|Version|Project|Shapes|StandardMaterial)")
+work=$(mktemp -d); trap 'rm -rf "$work"' EXIT
+for target in ${TARGETS:-pipeline effect material scene gltf image cocosEffect cocosAsset}; do
+  program=$build/crevice_fuzz_$target
+  inputs=("$source/tests/fuzz/corpus/$target"); [ -d "$corpus/$target" ] && inputs+=("$corpus/$target")
+  LLVM_PROFILE_FILE=$work/$target.raw "$program" -runs=0 "${inputs[@]}" > "$work/$target.log" 2>&1
+  $profdata merge -sparse "$work/$target.raw" -o "$work/$target.data"
+  $cov report "$program" -instr-profile="$work/$target.data" $(find "$source/pipeline" -name '*.cpp' | grep -E "pipeline/(${files[$target]})\.cpp$") > "$work/$target.txt" 2> /dev/null
+  [ -n "$VERBOSE" ] && awk '/\.cpp/ {printf "  %-40s %6s of %6s lines\n", $1, $8-$9, $8}' "$work/$target.txt"
+  awk -v target="$target" '/^TOTAL/ {printf "| %s | %d of %d lines | %.1f %% |\n", target, $8-$9, $8, 100*($8-$9)/$8}' "$work/$target.txt"
+done
