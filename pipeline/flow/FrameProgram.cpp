@@ -11,6 +11,7 @@
 #include "flow/FrameBlocks.h"
 #include "flow/ProgramCompile.h"
 #include "flow/RenderStage.h"
+#include "flow/SceneDefines.h"
 #include "flow/StageChecks.h"
 #include "flow/StageRegistry.h"
 #include "flow/Wiring.h"
@@ -85,6 +86,18 @@ std::vector<StageProgram> makePrograms(const PipelineDesc& pipeline, const Stage
     return stages;
 }
 
+ShadowMaps filledShadowMaps(const std::vector<StageProgram>& stages) {
+    ShadowMaps maps;
+    for (const StageProgram& stage : stages) {
+        if (!stage.desc->enabled) continue;
+        for (const BlockDeclaration& block : stage.declaration.blocks) {
+            maps.main = maps.main || block.name == "CCShadow";
+            maps.spot = maps.spot || block.name == "CCSpotShadow";
+        }
+    }
+    return maps;
+}
+
 }  // namespace
 
 void checkStages(const PipelineDesc& desc, const StageRegistry& registry, RunInfo run) {
@@ -100,7 +113,7 @@ FrameProgram::FrameProgram(PipelineDesc desc, const StageRegistry& registry, Eff
     makeStages(registry, run, problems);
     problems.throwIfErrors();
     nameGlobals();
-    compileDraws(frameDefines(desc_, nullptr), problems);
+    compileDraws(frameDefines(desc_, nullptr, {}), problems);
     problems.throwIfErrors();
     logOnce(problems);
 }
@@ -149,7 +162,7 @@ void FrameProgram::nameGlobals() {
 
 void FrameProgram::prepare(const Scene* scene) {
     Problems problems;
-    const Defines defines = frameDefines(desc_, scene);
+    const Defines defines = frameDefines(desc_, scene, filledShadowMaps(stages_));
     if (defines != drawDefines_) compileDraws(defines, problems);
     ProgramCompiler compiler(desc_, library_, globals_, defines);
     for (StageProgram& stage : stages_) {
@@ -211,7 +224,7 @@ StageUse FrameProgram::useOf(const StageProgram& stage, Problems& problems) cons
 
 void FrameProgram::checkListedReads(const StageDesc& desc, const StageUse& use, Problems& problems) {
     for (const ReadWire& listed : desc.reads) {
-        if (!listed.shaderName.empty() || !desc.enabled) continue;
+        if (!listed.shaderName.empty() || !desc.enabled || isReadForSomeScenes(listed.target)) continue;
         const bool found = std::any_of(use.reads.begin(), use.reads.end(),
                                        [&](const TargetRead& r) { return r.target == listed.target; });
         if (found) continue;

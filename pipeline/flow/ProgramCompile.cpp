@@ -10,7 +10,6 @@
 #include "flow/CocosMacros.h"
 #include "flow/CocosSurface.h"
 #include "flow/RenderStage.h"
-#include "flow/SceneDefines.h"
 #include "flow/Surface.h"
 #include "flow/VertexInput.h"
 #include "flow/Wiring.h"
@@ -95,8 +94,8 @@ ProgramCompiler::ProgramCompiler(const PipelineDesc& desc, EffectLibrary& librar
     (isCocos(desc.profile) ? macros_ : sceneDefines_) = std::move(sceneDefines);
 }
 
-Defines frameDefines(const PipelineDesc& desc, const Scene* scene) {
-    return isCocos(desc.profile) ? pipelineMacros(desc, scene) : sceneDefines(scene);
+Defines frameDefines(const PipelineDesc& desc, const Scene* scene, ShadowMaps maps) {
+    return isCocos(desc.profile) ? pipelineMacros(desc, scene) : sceneDefines(scene, maps);
 }
 
 const EffectVariant& ProgramCompiler::compile(const StageProgram& stage, const std::string& effect, PassChoice choice,

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "flow/FrameProgram.h"
+#include "flow/SceneDefines.h"
 
 namespace crevice {
 
@@ -39,7 +40,7 @@ private:
     Defines sceneDefines_;
 };
 
-/// Macros that follow from the pipeline and the scene (null: none).
-Defines frameDefines(const PipelineDesc& desc, const Scene* scene);
+/// Macros that follow from the pipeline, the shadow maps it fills, and the scene (null: none).
+Defines frameDefines(const PipelineDesc& desc, const Scene* scene, ShadowMaps maps);
 
 }  // namespace crevice

@@ -79,11 +79,20 @@ TEST_F(FrameProgramTest, AReadMovesTheTransition) {
     }
 }
 
+/// A sun and a spot light: what every shadow map is for.
+void addShadowedLights(Scene& scene) {
+    scene.lights.resize(2);
+    scene.lights[1].type = LightType::Spot;
+}
+
 TEST_F(FrameProgramTest, ASceneBringsItsMaterialsReads) {
     auto program = bench_.load("deferred");
     program->prepare(nullptr);
     EXPECT_TRUE(readsOf(*program, "TransparentStage").empty());
-    const Scene scene = twoMaterials();
+    Scene scene = twoMaterials();
+    program->prepare(&scene);
+    EXPECT_TRUE(readsOf(*program, "TransparentStage").empty()) << "no light, no shadow";
+    addShadowedLights(scene);
     program->prepare(&scene);
     EXPECT_THAT(readsOf(*program, "TransparentStage"), UnorderedElementsAre("cc_shadowMap", "cc_spotLightingMap"));
     EXPECT_TRUE(readsOf(*program, "GbufferStage").empty());
@@ -91,7 +100,8 @@ TEST_F(FrameProgramTest, ASceneBringsItsMaterialsReads) {
 
 TEST_F(FrameProgramTest, TheNumbersOfTheContractStandInEveryShader) {
     const BindingMap contract = contractBindings();
-    const Scene scene = twoMaterials();
+    Scene scene = twoMaterials();
+    addShadowedLights(scene);
     std::set<std::string> seen;
     for (const char* form : {"default", "article"}) {
         for (const char* bake : {"on", "off"}) {
