@@ -207,6 +207,7 @@ protected:
                 return std::exp(-double(fog.density) * distance);
             case FogType::Exp2:
                 return std::exp(-std::pow(double(fog.density) * distance, 2));
+            case FogType::Layered:  // of Cocos' effects only
             case FogType::None:
                 break;
         }
