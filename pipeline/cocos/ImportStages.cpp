@@ -32,6 +32,12 @@ constexpr LeftOut kLeftOut[] = {
     {"UIStage", "user interfaces are not drawn"},
 };
 
+bool isPicture(const std::filesystem::path& path) {
+    static constexpr std::string_view kEndings[] = {".png", ".jpg", ".jpeg", ".webp", ".exr"};
+    const std::string ending = path.extension().string();
+    return std::find(std::begin(kEndings), std::end(kEndings), ending) != std::end(kEndings);
+}
+
 std::string quoted(const std::vector<std::string>& words) {
     std::vector<std::string> all;
     for (const std::string& one : words) all.push_back("'" + one + "'");
@@ -216,9 +222,11 @@ void StageImporter::addMaterialOf(Value& out, const AssetRef& ref, const std::st
     if (!asset) return;
     const std::string effect = project_.effectName(file->path);
     const auto textures = [&](const AssetRef& texture, const EffectProperty& property) {
+        const MetaAsset* picture = project_.metas().find(texture.uuid);
+        if (picture && isPicture(picture->path)) return Value::makeString(picture->path.string(), texture.where);
         problems_.note(texture.where,
                        fmt::format("texture '{}' of material '{}' is left out", property.name, mtl->name),
-                       "full-screen stages take images of the pipeline: wire one with \"reads\"");
+                       "pictures must be PNG, JPEG, WebP or EXR; images of the pipeline are wired with \"reads\"");
         return Value();
     };
     const MaterialEffect values = instantiate(*mtl, *asset, effect, textures, problems_);
@@ -236,10 +244,7 @@ void StageImporter::addMaterialOf(Value& out, const AssetRef& ref, const std::st
     if (pass >= values.passes.size()) return;
     if (!values.passes[pass].defines.members().empty()) out.set("defines", values.passes[pass].defines);
     if (!values.passes[pass].properties.members().empty()) out.set("material", values.passes[pass].properties);
-    if (!values.passes[pass].states.members().empty()) {
-        problems_.note(mtl->where, fmt::format("state overrides of material '{}' are left out", mtl->name),
-                       "write the states into the effect");
-    }
+    if (!values.passes[pass].states.members().empty()) out.set("states", values.passes[pass].states);
 }
 
 Value StageImporter::queuesOf(const RppStage& stage, bool transparent) {

@@ -207,7 +207,7 @@ StageUse FrameProgram::useOf(const StageProgram& stage, Problems& problems) cons
         use.compute = use.compute || !variant.compute.empty();
     };
     for (const DrawProgram& draw : stage.draws) {
-        if (draw.variant) addReads(*draw.variant, draw.variant->pass->state, draw.wires);
+        if (draw.variant) addReads(*draw.variant, draw.state, draw.wires);
     }
     for (const QueueProgram& queue : stage.queues) {
         for (const SurfaceProgram& surface : queue.surfaces) {
@@ -220,6 +220,27 @@ StageUse FrameProgram::useOf(const StageProgram& stage, Problems& problems) cons
         use.reads.push_back({.target = target, .shaderName = {}, .where = desc.where});
     checkListedReads(desc, use, problems);
     return use;
+}
+
+std::set<std::string> FrameProgram::stencilTargets() const {
+    const auto tests = [](const RenderState& state) { return state.stencilFront.test || state.stencilBack.test; };
+    const auto anyTests = [&](const QueueProgram& queue) {
+        return std::any_of(queue.surfaces.begin(), queue.surfaces.end(), [&](const SurfaceProgram& surface) {
+            return (surface.variant && tests(surface.state)) ||
+                   std::any_of(surface.further.begin(), surface.further.end(),
+                               [&](const SurfaceProgram& more) { return tests(more.state); });
+        });
+    };
+    std::set<std::string> targets;
+    for (const StageProgram& stage : stages_) {
+        const bool tested = std::any_of(stage.draws.begin(), stage.draws.end(),
+                                        [&](const DrawProgram& draw) { return tests(draw.state); }) ||
+                            std::any_of(stage.queues.begin(), stage.queues.end(), anyTests);
+        if (!tested) continue;
+        for (const TargetWrite& write : stage.declaration.writes)
+            if (write.kind == WriteKind::DepthTest || write.kind == WriteKind::DepthWrite) targets.insert(write.target);
+    }
+    return targets;
 }
 
 void FrameProgram::checkListedReads(const StageDesc& desc, const StageUse& use, Problems& problems) {

@@ -36,6 +36,7 @@ struct Wire {
 struct DrawProgram {
     const EffectVariant* variant = nullptr;
     std::unique_ptr<Material> material;
+    RenderState state;                        ///< The pass', with what the document changes.
     std::vector<std::string> autoProperties;  ///< Left at `auto`: a length that follows from the scene.
     std::vector<Wire> wires;
 };
@@ -90,6 +91,8 @@ public:
     const FramePlan& plan() const { return plan_; }
     /// All stages in document order; indices are those of FramePlan::uses.
     std::vector<StageProgram>& stages() { return stages_; }
+    /// Depth targets that a pass with a stencil test draws into.
+    std::set<std::string> stencilTargets() const;
     const std::vector<StageProgram>& stages() const { return stages_; }
 
 private:

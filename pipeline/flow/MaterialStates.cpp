@@ -33,6 +33,10 @@ public:
         const Value* value = object_.find(key);
         if (value && value->isNumber()) out = static_cast<float>(value->number());
     }
+    void bits(const char* key, std::uint32_t& out) const {
+        const Value* value = object_.find(key);
+        if (value && value->isInteger()) out = static_cast<std::uint32_t>(value->integer());
+    }
     /// Place of the word or number in `names`; nothing when the key is missing or wrong.
     std::optional<std::size_t> index(const char* key, std::span<const char* const> names) const {
         const Value* value = object_.find(key);
@@ -72,10 +76,24 @@ void readRasterizer(const StateReader& reader, RenderState& state) {
     if (!biased) state.depthBias = state.depthBiasSlope = 0;
 }
 
+void readStencil(const StateReader& reader, const std::string& side, StencilFace& face) {
+    const auto key = [&](const char* name) { return name + side; };
+    reader.flag(key("stencilTest").c_str(), face.test);
+    reader.word(key("stencilFunc").c_str(), kCompareNames, face.func);
+    reader.bits(key("stencilReadMask").c_str(), face.readMask);
+    reader.bits(key("stencilWriteMask").c_str(), face.writeMask);
+    reader.bits(key("stencilRef").c_str(), face.ref);
+    reader.word(key("stencilFailOp").c_str(), kStencilNames, face.failOp);
+    reader.word(key("stencilZFailOp").c_str(), kStencilNames, face.zFailOp);
+    reader.word(key("stencilPassOp").c_str(), kStencilNames, face.passOp);
+}
+
 void readDepth(const StateReader& reader, RenderState& state) {
     reader.flag("depthTest", state.depthTest);
     reader.flag("depthWrite", state.depthWrite);
     reader.word("depthFunc", kCompareNames, state.depthFunc);
+    readStencil(reader, "Front", state.stencilFront);
+    readStencil(reader, "Back", state.stencilBack);
 }
 
 void readBlendTarget(const Value& item, BlendTarget& target, Problems& problems) {

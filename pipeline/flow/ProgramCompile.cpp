@@ -9,6 +9,7 @@
 
 #include "flow/CocosMacros.h"
 #include "flow/CocosSurface.h"
+#include "flow/MaterialStates.h"
 #include "flow/RenderStage.h"
 #include "flow/Surface.h"
 #include "flow/VertexInput.h"
@@ -168,6 +169,7 @@ void ProgramCompiler::compileDraws(StageProgram& stage, Problems& problems) {
         program.material =
             makeMaterial(variant, isCocos(desc_.profile) ? passValues(values, *variant.pass).numbers : values, problems,
                          desc_.profile);
+        program.state = withStates(variant.pass->state, desc.states, problems);
         program.autoProperties = program.material->autoProperties();
         program.wires = wireShader({.pipeline = desc_,
                                     .stage = desc,

@@ -55,6 +55,7 @@ RenderPipeline::RenderPipeline(Device& device, EffectLibrary& library, const Sta
       layouts_(device),
       pipelines_(device),
       defaults_(device),
+      files_(device),
       globals_(device, pool_, samplers_, program_.globals(), defaults_),
       locals_(device, pool_, samplers_, defaults_, program_.desc().profile),
       quad_(device),
@@ -72,8 +73,8 @@ void RenderPipeline::prepare(const Scene& scene, Scene* releasing) {
     scene_ = releasing ? SceneGpu::makeReleasing(device_, samplers_, *releasing)
                        : std::make_unique<SceneGpu>(device_, samplers_, scene);
     writeLights(scene);
-    targets_ = std::make_unique<TargetPool>(device_, program_.desc(), program_.plan());
-    context_ = std::make_unique<ExecutionContext>(ExecutionContext{{device_, pool_, samplers_, defaults_},
+    targets_ = std::make_unique<TargetPool>(device_, program_.desc(), program_.plan(), program_.stencilTargets());
+    context_ = std::make_unique<ExecutionContext>(ExecutionContext{{device_, pool_, samplers_, defaults_, files_},
                                                                    layouts_,
                                                                    pipelines_,
                                                                    globals_,

@@ -82,6 +82,7 @@ private:
     PipelineLayoutCache layouts_;
     PipelineCache pipelines_;
     DefaultTextures defaults_;
+    FileTextures files_;
     GlobalSet globals_;
     LocalSet locals_;
     QuadMesh quad_;

@@ -75,7 +75,9 @@ void ShaderBinding::writeTextures(const BindingContext& context, const std::vect
                                   const TargetPool& targets, const std::vector<std::string>& depthReadOnly) {
     for (const Wire& wire : wires) {
         if (wire.target.empty()) {
-            const GpuTexture* texture = context.defaults.find(wire.texture, wire.cube);
+            const bool file = !wire.cube && isPictureFile(wire.texture);
+            const GpuTexture* texture =
+                file ? &context.files.get(wire.texture) : context.defaults.find(wire.texture, wire.cube);
             if (texture && !(wire.cube && wire.texture == "white"))  // Own effects: cubes stay black.
                 set_.writeTexture(wire.slot.binding, *texture,
                                   context.samplers.get(samplerKey(SamplerKind::LinearRepeat)));

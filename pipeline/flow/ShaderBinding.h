@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "flow/FileTextures.h"
 #include "flow/FrameProgram.h"
 #include "flow/GlobalSet.h"
 #include "flow/SceneGpu.h"
@@ -17,6 +18,7 @@ struct BindingContext {
     DescriptorPool& pool;
     SamplerCache& samplers;
     const DefaultTextures& defaults;
+    FileTextures& files;
 };
 
 class ShaderBinding {

@@ -41,11 +41,12 @@ StageExecution::StageExecution(const ExecutionContext& context, StageProgram& pr
         const Format format = context.targets.format(write.write.target);
         if (write.write.kind == WriteKind::Color) colorFormats_.push_back(format);
         if (write.write.kind == WriteKind::DepthTest || write.write.kind == WriteKind::DepthWrite)
-            depthFormat_ = format;
+            depthFormat_ = format, stencil_ = context.targets.hasStencil(write.write.target);
         if (write.write.kind == WriteKind::DepthTest) depthReadOnly_.push_back(write.write.target);
     }
+    loadPictures();
     for (const DrawProgram& draw : program.draws)
-        draws_.push_back(makeShader(*draw.variant, *draw.material, draw.variant->pass->state, false));
+        draws_.push_back(makeShader(*draw.variant, *draw.material, draw.state, false));
     views_.resize(program.queues.size());
     for (const QueueProgram& queue : program.queues) {
         std::vector<Passes>& shaders = queues_.emplace_back();
@@ -58,6 +59,13 @@ StageExecution::StageExecution(const ExecutionContext& context, StageProgram& pr
             for (const ShaderGpu& pass : passes) orders.insert(pass.order);
         }
     }
+}
+
+/// Before anything is drawn: a file may be gone.
+void StageExecution::loadPictures() {
+    for (const DrawProgram& draw : program_.draws)
+        for (const Wire& wire : draw.wires)
+            if (wire.target.empty() && isPictureFile(wire.texture)) context_.bindings.files.get(wire.texture);
 }
 
 StageExecution::ShaderGpu StageExecution::makeShader(const EffectVariant& variant, const Material& material,
@@ -100,7 +108,9 @@ StageExecution::ShaderGpu StageExecution::makeSurface(const SurfaceProgram& surf
 
 const Pipeline& StageExecution::makePipeline(const EffectVariant& variant, const VertexInput& input,
                                              const PipelineLayout& layout, RenderState state) {
-    if (!depthReadOnly_.empty()) state.depthWrite = false;  // the attachment is read-only, whatever the effect says
+    // The attachment is read-only, whatever the effect says.
+    if (!depthReadOnly_.empty())
+        state.depthWrite = false, state.stencilFront.writeMask = state.stencilBack.writeMask = 0;
     return context_.pipelines.get(GraphicsPipelineDesc{.vertex = variant.vertex,
                                                        .fragment = variant.fragment,
                                                        .state = std::move(state),
@@ -108,6 +118,7 @@ const Pipeline& StageExecution::makePipeline(const EffectVariant& variant, const
                                                        .vertexAttributes = input.attributes,
                                                        .colorFormats = colorFormats_,
                                                        .depthFormat = depthFormat_,
+                                                       .stencil = stencil_,
                                                        .layout = &layout,
                                                        .name = variant.name});
 }

@@ -78,6 +78,7 @@ private:
         bool usesLocal = false, usesQuad = false, usesZeroes = false;
         std::uint32_t order = 0;
     };
+    void loadPictures();
     ShaderGpu makeShader(const EffectVariant& variant, const Material& material, RenderState state, bool surface);
     ShaderGpu makeSurface(const SurfaceProgram& surface);
     const Pipeline& makePipeline(const EffectVariant& variant, const VertexInput& input, const PipelineLayout& layout,
@@ -103,6 +104,7 @@ private:
     std::vector<std::string> depthReadOnly_;
     std::vector<Format> colorFormats_;
     std::optional<Format> depthFormat_;
+    bool stencil_ = false;  ///< Of the depth target.
     std::vector<ShaderGpu> draws_;
     using Passes = std::vector<ShaderGpu>;         ///< Of one surface, ascending by order; empty = not drawn.
     std::vector<std::vector<Passes>> queues_;      ///< [queue][surfaceIndex]

@@ -11,8 +11,8 @@
 
 namespace crevice {
 
-TargetPool::TargetPool(Device& device, const PipelineDesc& desc, const FramePlan& plan)
-    : device_(device), desc_(desc), plan_(plan) {}
+TargetPool::TargetPool(Device& device, const PipelineDesc& desc, const FramePlan& plan, std::set<std::string> stencils)
+    : device_(device), desc_(desc), plan_(plan), stencils_(std::move(stencils)) {}
 
 void TargetPool::resize(glm::uvec2 extent) {
     if (extent == extent_) return;
@@ -77,6 +77,7 @@ GpuTexture TargetPool::makeTexture(const TargetDesc& target, const TargetLife& l
                                 .height = size.y,
                                 .mips = target.mips,
                                 .layers = target.layers,
+                                .stencil = hasStencil(target.name),
                                 .usage = usage,
                                 .name = target.name});
 }

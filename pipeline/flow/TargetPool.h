@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <map>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -17,7 +18,8 @@ namespace crevice {
 class TargetPool {
 public:
     /// Makes nothing yet: resize() does.
-    TargetPool(Device& device, const PipelineDesc& desc, const FramePlan& plan);
+    /// `stencils`: depth targets that passes with a stencil test draw into.
+    TargetPool(Device& device, const PipelineDesc& desc, const FramePlan& plan, std::set<std::string> stencils = {});
 
     /// Throws Error with the sum when the targets do not fit the device's heap or limits at this size.
     void checkFits(glm::uvec2 extent) const;
@@ -28,6 +30,7 @@ public:
     const GpuTexture& texture(std::string_view target) const;
     const TargetDesc& desc(std::string_view target) const;
     Format format(std::string_view target) const { return desc(target).format; }
+    bool hasStencil(std::string_view target) const { return stencils_.contains(std::string(target)); }
     /// Bytes that the targets hold.
     std::uint64_t bytes() const;
 
@@ -39,6 +42,7 @@ private:
     Device& device_;
     const PipelineDesc& desc_;
     const FramePlan& plan_;
+    std::set<std::string> stencils_;
     glm::uvec2 extent_{0};
     std::map<std::string, GpuTexture, std::less<>> textures_;
 };

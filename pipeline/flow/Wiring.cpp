@@ -7,6 +7,7 @@
 #include <cstdlib>
 
 #include "core/Text.h"
+#include "flow/FileTextures.h"
 
 namespace crevice {
 namespace {
@@ -58,6 +59,7 @@ const MaterialSampler* findTexture(const Material& material, const std::string& 
 std::string cocosTexture(const MaterialSampler* texture) {
     if (!texture) return "default";
     std::string word = texture->texture;
+    if (isPictureFile(word)) return word;
     for (const std::string_view ending : {"-texture", "-cube"})
         if (word.ends_with(ending)) word.resize(word.size() - ending.size());
     static constexpr const char* kBuiltIn[] = {"white", "black", "grey", "normal", "empty"};

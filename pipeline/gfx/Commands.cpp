@@ -162,6 +162,7 @@ void Commands::beginRendering(const RenderingDesc& desc) {
     if (desc.depth.texture) {
         depth = attachmentInfo(desc.depth);
         info.pDepthAttachment = &depth;
+        if (desc.depth.texture->desc().stencil) info.pStencilAttachment = &depth;
     }
     vkCmdBeginRendering(commands_, &info);
     setViewport(0, 0, static_cast<float>(area.width), static_cast<float>(area.height));

@@ -14,7 +14,7 @@ VkBufferImageCopy copyRegion(const GpuTexture& texture, std::uint32_t mip, std::
     assert(mip < texture.desc().mips && layer < texture.desc().layers);
     VkBufferImageCopy region{};
     region.bufferOffset = offset;
-    region.imageSubresource = {texture.aspect(), mip, layer, 1};
+    region.imageSubresource = {texture.readAspect(), mip, layer, 1};
     region.imageExtent = {texture.width(mip), texture.height(mip), 1};
     return region;
 }

@@ -67,6 +67,14 @@ bool supportsLinearFilter(const Device& device, Format format) {
     return (featuresOf(device, format) & VK_FORMAT_FEATURE_SAMPLED_IMAGE_FILTER_LINEAR_BIT) != 0;
 }
 
+bool supportsStencil(const Device& device) {
+    VkFormatProperties properties{};
+    vkGetPhysicalDeviceFormatProperties(device.physical(), VK_FORMAT_D32_SFLOAT_S8_UINT, &properties);
+    constexpr VkFormatFeatureFlags kNeeded = VK_FORMAT_FEATURE_DEPTH_STENCIL_ATTACHMENT_BIT |
+                                             VK_FORMAT_FEATURE_SAMPLED_IMAGE_BIT | VK_FORMAT_FEATURE_TRANSFER_SRC_BIT;
+    return (properties.optimalTilingFeatures & kNeeded) == kNeeded;
+}
+
 bool supportsBlend(const Device& device, Format format) {
     return (featuresOf(device, format) & VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BLEND_BIT) != 0;
 }

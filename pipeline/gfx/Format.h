@@ -17,6 +17,8 @@ VkImageAspectFlags aspectOf(Format format);
 /// True when optimally tiled images of the format can be used in all the ways of `usage`.
 bool supports(const Device& device, Format format, TextureUsage usage);
 bool supportsLinearFilter(const Device& device, Format format);
+/// Depth targets with a stencil: D32F and eight bits.
+bool supportsStencil(const Device& device);
 bool supportsBlend(const Device& device, Format format);
 
 }  // namespace crevice

@@ -63,6 +63,7 @@ struct PipelineCache::Key {
     std::vector<VertexAttribute> vertexAttributes;
     std::vector<Format> colorFormats;
     std::optional<Format> depthFormat;
+    bool stencil = false;
     const PipelineLayout* layout = nullptr;
     bool operator==(const Key&) const = default;
 
@@ -108,6 +109,7 @@ const Pipeline& PipelineCache::get(const GraphicsPipelineDesc& desc) {
     key.vertexBindings = desc.vertexBindings;
     key.vertexAttributes = desc.vertexAttributes;
     key.colorFormats = desc.colorFormats;
+    key.stencil = desc.stencil;
     key.depthFormat = desc.depthFormat;
     key.layout = desc.layout;
     if (const Pipeline* known = find(key)) return *known;

@@ -74,6 +74,7 @@ struct GraphicsPipelineDesc {
     std::vector<VertexAttribute> vertexAttributes;
     std::vector<Format> colorFormats;
     std::optional<Format> depthFormat;  ///< None = no depth attachment: depth state is ignored.
+    bool stencil = false;               ///< The depth attachment has a stencil; without one stencil tests are ignored.
     const PipelineLayout* layout = nullptr;
     std::string name{};  ///< For messages and captures; not part of the key.
 };

@@ -80,6 +80,19 @@ VkPipelineRasterizationStateCreateInfo rasterizationInfo(const RenderState& stat
     return info;
 }
 
+/// A side without a test passes and keeps.
+VkStencilOpState stencilSide(const StencilFace& face) {
+    VkStencilOpState side{};
+    side.compareOp = face.test ? crevice::toVk(face.func) : VK_COMPARE_OP_ALWAYS;
+    side.failOp = crevice::toVk(face.test ? face.failOp : StencilOp::Keep);
+    side.depthFailOp = crevice::toVk(face.test ? face.zFailOp : StencilOp::Keep);
+    side.passOp = crevice::toVk(face.test ? face.passOp : StencilOp::Keep);
+    side.compareMask = face.readMask;
+    side.writeMask = face.test ? face.writeMask : 0;
+    side.reference = face.ref;
+    return side;
+}
+
 VkPipelineDepthStencilStateCreateInfo depthInfo(const GraphicsPipelineDesc& desc) {
     auto info =
         vkStruct<VkPipelineDepthStencilStateCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_DEPTH_STENCIL_STATE_CREATE_INFO);
@@ -87,6 +100,10 @@ VkPipelineDepthStencilStateCreateInfo depthInfo(const GraphicsPipelineDesc& desc
     info.depthWriteEnable = desc.depthFormat && desc.state.depthWrite ? VK_TRUE : VK_FALSE;
     info.depthCompareOp = crevice::toVk(desc.state.depthFunc);
     info.maxDepthBounds = 1;
+    const bool tests = desc.state.stencilFront.test || desc.state.stencilBack.test;
+    info.stencilTestEnable = desc.stencil && tests ? VK_TRUE : VK_FALSE;
+    info.front = stencilSide(desc.state.stencilFront);
+    info.back = stencilSide(desc.state.stencilBack);
     return info;
 }
 
@@ -147,6 +164,8 @@ Unique<VkPipeline> buildGraphicsPipeline(Device& device, const GraphicsPipelineD
     rendering.colorAttachmentCount = static_cast<std::uint32_t>(colorFormats.size());
     rendering.pColorAttachmentFormats = colorFormats.data();
     rendering.depthAttachmentFormat = desc.depthFormat ? crevice::toVk(*desc.depthFormat) : VK_FORMAT_UNDEFINED;
+    if (desc.stencil)
+        rendering.depthAttachmentFormat = rendering.stencilAttachmentFormat = VK_FORMAT_D32_SFLOAT_S8_UINT;
 
     const VertexInput input(desc);
     const auto vertexInput = input.info();

@@ -26,6 +26,18 @@ VkCompareOp toVk(CompareOp op) {
     return lookUp(kOps, op);
 }
 
+VkStencilOp toVk(StencilOp op) {
+    static constexpr std::array kOps = {VK_STENCIL_OP_ZERO,
+                                        VK_STENCIL_OP_KEEP,
+                                        VK_STENCIL_OP_REPLACE,
+                                        VK_STENCIL_OP_INCREMENT_AND_CLAMP,
+                                        VK_STENCIL_OP_DECREMENT_AND_CLAMP,
+                                        VK_STENCIL_OP_INVERT,
+                                        VK_STENCIL_OP_INCREMENT_AND_WRAP,
+                                        VK_STENCIL_OP_DECREMENT_AND_WRAP};
+    return lookUp(kOps, op);
+}
+
 VkCullModeFlags toVk(CullMode mode) {
     static constexpr std::array kModes = {VK_CULL_MODE_NONE, VK_CULL_MODE_FRONT_BIT, VK_CULL_MODE_BACK_BIT};
     return static_cast<VkCullModeFlags>(lookUp(kModes, mode));

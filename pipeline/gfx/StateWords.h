@@ -8,6 +8,7 @@
 namespace crevice {
 
 VkCompareOp toVk(CompareOp op);
+VkStencilOp toVk(StencilOp op);
 VkCullModeFlags toVk(CullMode mode);
 VkPolygonMode toVk(PolygonMode mode);
 VkBlendFactor toVk(BlendFactor factor);

@@ -47,6 +47,11 @@ void checkSupport(const Device& device, const TextureDesc& desc) {
                                 formatInfo(desc.format).name, row.words, quoted(desc)),
                     "choose another format; `crevice info` lists what the device can do");
     }
+    if (desc.stencil && !supportsStencil(device)) {
+        throw Error(fmt::format("device '{}' has no depth format with a stencil, which {} needs", device.deviceName(),
+                                quoted(desc)),
+                    "draw without stencil tests, or choose another device with --device");
+    }
     const std::uint32_t limit = desc.cube ? device.limits().maxImageDimensionCube : device.limits().maxImageDimension2D;
     if (desc.width > limit || desc.height > limit) {
         throw Error(fmt::format("{} is {}x{} pixels; device '{}' allows {}", quoted(desc), desc.width, desc.height,
@@ -75,9 +80,9 @@ VkImageLayout layoutOf(TextureState state) {
         case TextureState::Color:
             return VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL;
         case TextureState::Depth:
-            return VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL;
+            return VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL;  // also where there is no stencil
         case TextureState::DepthReadOnly:
-            return VK_IMAGE_LAYOUT_DEPTH_READ_ONLY_OPTIMAL;
+            return VK_IMAGE_LAYOUT_DEPTH_STENCIL_READ_ONLY_OPTIMAL;
         case TextureState::Sampled:
             return VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
         case TextureState::StorageRead:
@@ -98,6 +103,7 @@ std::uint32_t fullMipCount(std::uint32_t width, std::uint32_t height) {
 GpuTexture::GpuTexture(Device& device, TextureDesc desc) : desc_(std::move(desc)) {
     if (desc_.cube) desc_.layers = 6;
     assert(desc_.width > 0 && desc_.height > 0 && desc_.layers > 0 && desc_.mips > 0);
+    assert(!desc_.stencil || desc_.format == Format::D32F);
     assert(desc_.mips <= fullMipCount(desc_.width, desc_.height));
     checkSupport(device, desc_);
     createImage(device);
@@ -108,7 +114,7 @@ void GpuTexture::createImage(Device& device) {
     auto info = vkStruct<VkImageCreateInfo>(VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO);
     info.flags = desc_.cube ? VK_IMAGE_CREATE_CUBE_COMPATIBLE_BIT : 0;
     info.imageType = VK_IMAGE_TYPE_2D;
-    info.format = crevice::toVk(desc_.format);
+    info.format = vulkanFormat();
     info.extent = {desc_.width, desc_.height, 1};
     info.mipLevels = desc_.mips;
     info.arrayLayers = desc_.layers;
@@ -137,12 +143,12 @@ void GpuTexture::createViews(Device& device) {
     if (!hasUsage(desc_.usage, viewable)) return;
     const VkImageViewType perMip = desc_.layers > 1 ? VK_IMAGE_VIEW_TYPE_2D_ARRAY : VK_IMAGE_VIEW_TYPE_2D;
     const VkImageViewType whole = desc_.cube ? VK_IMAGE_VIEW_TYPE_CUBE : perMip;
-    whole_ = addView(device, whole, {aspect(), 0, desc_.mips, 0, desc_.layers});
+    whole_ = addView(device, whole, {readAspect(), 0, desc_.mips, 0, desc_.layers});
     for (std::uint32_t mip = 0; mip < desc_.mips; ++mip) {
         const bool same = desc_.mips == 1 && whole == perMip;
-        mipViews_.push_back(same ? whole_ : addView(device, perMip, {aspect(), mip, 1, 0, desc_.layers}));
+        mipViews_.push_back(same ? whole_ : addView(device, perMip, {readAspect(), mip, 1, 0, desc_.layers}));
         for (std::uint32_t layer = 0; layer < desc_.layers; ++layer) {
-            attachmentViews_.push_back(desc_.layers == 1
+            attachmentViews_.push_back(desc_.layers == 1 && !desc_.stencil
                                            ? mipViews_.back()
                                            : addView(device, VK_IMAGE_VIEW_TYPE_2D, {aspect(), mip, 1, layer, 1}));
         }
@@ -153,7 +159,7 @@ VkImageView GpuTexture::addView(Device& device, VkImageViewType type, VkImageSub
     auto info = vkStruct<VkImageViewCreateInfo>(VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO);
     info.image = image_.get();
     info.viewType = type;
-    info.format = crevice::toVk(desc_.format);
+    info.format = vulkanFormat();
     info.subresourceRange = range;
     VkImageView view = VK_NULL_HANDLE;
     VK_CALL(vkCreateImageView(device.handle(), &info, nullptr, &view));
@@ -162,7 +168,15 @@ VkImageView GpuTexture::addView(Device& device, VkImageViewType type, VkImageSub
     return view;
 }
 
-VkImageAspectFlags GpuTexture::aspect() const { return aspectOf(desc_.format); }
+VkFormat GpuTexture::vulkanFormat() const {
+    return desc_.stencil ? VK_FORMAT_D32_SFLOAT_S8_UINT : crevice::toVk(desc_.format);
+}
+
+VkImageAspectFlags GpuTexture::readAspect() const { return aspectOf(desc_.format); }
+
+VkImageAspectFlags GpuTexture::aspect() const {
+    return desc_.stencil ? readAspect() | VK_IMAGE_ASPECT_STENCIL_BIT : readAspect();
+}
 
 VkImageView GpuTexture::view() const {
     assert(whole_ != VK_NULL_HANDLE);

@@ -52,6 +52,7 @@ struct TextureDesc {
     std::uint32_t mips = 1;
     std::uint32_t layers = 1;  ///< 6 for a cube.
     bool cube = false;
+    bool stencil = false;  ///< D32F: eight bits of stencil beside the depth.
     TextureUsage usage = TextureUsage::Sampled;
     std::string name{};
 };
@@ -74,7 +75,10 @@ public:
     std::uint64_t memoryBytes() const { return memory_.size(); }
 
     VkImage handle() const { return image_.get(); }
+    /// Everything it holds: for barriers, clears and attachments.
     VkImageAspectFlags aspect() const;
+    /// What samplers and copies see: no stencil.
+    VkImageAspectFlags readAspect() const;
     explicit operator bool() const { return static_cast<bool>(image_); }
     /// All mips and layers: 2D, 2D array (layers > 1) or cube. For samplers.
     VkImageView view() const;
@@ -84,6 +88,7 @@ public:
     VkImageView attachmentView(std::uint32_t mip, std::uint32_t layer) const;
 
 private:
+    VkFormat vulkanFormat() const;
     VkImageView addView(Device& device, VkImageViewType type, VkImageSubresourceRange range);
     void createImage(Device& device);
     void createViews(Device& device);

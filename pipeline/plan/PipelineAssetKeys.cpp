@@ -258,6 +258,10 @@ const KeySpec kStageKeys[] = {
     {.key = "material",
      .kind = KeyKind::Object,
      .help = "Properties of the effect: `crevice effects NAME` lists them."},
+    {.key = "states",
+     .kind = KeyKind::Object,
+     .help = "Fixed-function states over those of a full-screen effect's pass: `rasterizerState`, `depthStencilState`, "
+             "`blendState`."},
     {.key = "params", .kind = KeyKind::Object, .help = "Parameters of the class: `crevice stages NAME` lists them."},
     {.key = "reads",
      .kind = KeyKind::ObjectOrArray,

@@ -159,6 +159,7 @@ StageDesc TreeReader::readStage(const Value& value) {
         stage.defines = *defines;
     }
     if (const Value* material = reader.get("material")) stage.material = *material;
+    if (const Value* states = reader.get("states")) stage.states = *states;
     if (const Value* params = reader.get("params")) stage.params = *params;
     if (const Value* reads = reader.get("reads")) readReads(*reads, what, stage);
     if (const Value* writes = reader.get("writes")) readWrites(*writes, what, stage);

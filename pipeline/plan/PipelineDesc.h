@@ -61,6 +61,7 @@ struct StageDesc {
     SourceLoc effectWhere;
     Value defines;   ///< Object or null.
     Value material;  ///< Object or null.
+    Value states;    ///< Object or null: over those of the full-screen effect's pass.
     Value params;    ///< Object or null.
     std::vector<ReadWire> reads;
     std::vector<std::string> writes;

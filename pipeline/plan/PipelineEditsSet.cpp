@@ -24,7 +24,7 @@ std::vector<std::string> splitPath(const std::string& path) {
 }
 
 bool isMapKey(const std::string& key) {
-    return key == "params" || key == "material" || key == "defines" || key == "reads";
+    return key == "params" || key == "material" || key == "states" || key == "defines" || key == "reads";
 }
 
 /// Whether one letter more, less or changed makes `a` into `b`: a typing mistake rather than another word.

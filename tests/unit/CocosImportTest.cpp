@@ -133,6 +133,20 @@ TEST(CocosImport, TheDemosShapeBecomesADocument) {
     EXPECT_TRUE(contains(project.notes, "'SsaoRenderPipeline' is a script"));
 }
 
+TEST(CocosImport, StatesAndPicturesOfAStagesMaterialAreTaken) {
+    ProjectFolder project;
+    project.write("assets/pipeline/ssao.mtl",
+                  std::string(R"({ "__type__": "cc.Material", "_effectAsset": { "__uuid__": ")") + kEffect +
+                      R"(" }, "_states": [ { "depthStencilState": { "depthTest": true, "stencilFuncFront": 2 } } ],
+                      "_props": [ { "noise": { "__uuid__": "00000000-0000-4000-8000-000000000002@6c48a" } } ] })");
+    project.write("assets/noise.png", "");
+    project.write("assets/noise.png.meta", R"({"importer":"image","uuid":"00000000-0000-4000-8000-000000000002",
+        "subMetas":{"6c48a":{"importer":"texture","uuid":"00000000-0000-4000-8000-000000000002@6c48a"}}})");
+    const StageDesc ssao = stage(load(project.import(mainFlow(kSsao)).text), "SsaoStage");
+    EXPECT_EQ(ssao.states.toJson(-1), R"({"depthStencilState":{"depthTest":true,"stencilFuncFront":2}})");
+    EXPECT_EQ(ssao.material.find("noise")->string(), (project.folder.path() / "assets/noise.png").string());
+}
+
 TEST(CocosImport, AUsersStageTakesItsMaterial) {
     ProjectFolder project;
     const PipelineDesc desc = load(project.import(mainFlow(kSsao)).text);
