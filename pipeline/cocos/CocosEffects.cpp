@@ -9,10 +9,12 @@
 
 #include "cocos/BlockRules.h"
 #include "cocos/ChunkLibrary.h"
+#include "cocos/EntryCheck.h"
 #include "cocos/Fingerprint.h"
 #include "cocos/Flattener.h"
 #include "cocos/Numbering.h"
 #include "cocos/StageAnalysis.h"
+#include "cocos/TakeOver.h"
 #include "core/Files.h"
 #include "effect/VariantBuilder.h"
 
@@ -25,17 +27,11 @@ constexpr std::size_t kMaxEffectBytes = 16u << 20;
 /// Flattened stages that are kept: the passes of a technique share them.
 constexpr std::size_t kKeptStages = 24;
 
-/// With an entry, main() is ours: it hands the entry's result to the place where the stage's result goes.
-std::string_view entryText(ShaderStageBits stage) {
-    if (stage == kVertexBit) return "void main() {{ gl_Position = {}(); }}\n";
-    if (stage == kComputeBit) return "void main() {{ {}(); }}\n";
-    return "layout(location = 0) out vec4 cc_FragColor; void main() {{ cc_FragColor = {}(); }}\n";
-}
-
-void appendEntry(StageText& text, const std::string& entry, const SourceLoc& where) {
-    text.flat.text += fmt::format(fmt::runtime(entryText(text.stage)), entry);
-    text.flat.files.push_back(where.file);
-    text.flat.lines.push_back({static_cast<std::uint32_t>(text.flat.files.size() - 1), where.line});
+/// main() of a stage with an entry is its last line.
+void addEntry(StageText& text, const ProgramReference& program, const SourceLoc& where, Problems& problems) {
+    if (program.entry.empty() || problems.hasErrors()) return;
+    checkEntry(text.flat.text, program, text.stage, where, problems);
+    appendEntry(text.flat, text.stage, program.entry, where);
     text.conditionOf.push_back(0);
 }
 
@@ -87,11 +83,11 @@ std::shared_ptr<CocosEffects::State::Kept> CocosEffects::State::keep(const Effec
         const ProgramReference reference = parseProgram(part.reference);
         stage->text =
             analyzeStage(part.stage, flattenStage(effect, reference.program, part.where, chunks, {}, own), own);
-        if (!reference.entry.empty()) appendEntry(stage->text, reference.entry, part.where);
+        addEntry(stage->text, reference, part.where, own);
     } catch (const Error& error) {
         own.add(error);
     }
-    if (!own.all().empty()) problems.add(Error(own.all()));
+    takeOver(own, problems);
     if (own.hasErrors()) return nullptr;
     stage->key = std::move(key);
     kept.push_back(stage);
@@ -106,7 +102,7 @@ std::vector<std::shared_ptr<CocosEffects::State::Kept>> CocosEffects::State::kee
     std::vector<std::shared_ptr<Kept>> stages;
     Problems own;
     for (const StagePart& part : partsOf(pass)) stages.push_back(keep(effect, part, own));
-    if (!own.all().empty()) problems.add(Error(own.all()));
+    takeOver(own, problems);
     if (own.hasErrors()) stages.clear();
     return stages;
 }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "cocos/TakeOver.h"
 #include "core/Files.h"
 
 namespace crevice::cocos {
@@ -76,7 +77,7 @@ private:
         Problems own;
         const std::vector<StageText> stages = effects_.flatten(effect_, pass, own);
         if (!own.hasErrors() && !stages.empty()) shaders_.items().push_back(reflectShader(name, stages, own));
-        if (own.hasErrors()) problems_.add(Error(own.all()));
+        if (own.hasErrors()) takeOver(own, problems_);
         return own.hasErrors() || stages.empty() ? nullptr : &shaders_.items().back();
     }
 

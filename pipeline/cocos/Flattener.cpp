@@ -27,6 +27,17 @@ std::string_view includedName(std::string_view rest) {
     return name;
 }
 
+/// How a pragma that is written wrongly should look.
+std::string_view pragmaExample(std::string_view rest) {
+    const std::string_view word = leadingName(trimBlank(rest));
+    if (word == "builtin") return "write #pragma builtin(global) or #pragma builtin(local)";
+    if (word == "extension") return "write #pragma extension([NAME, __VERSION__ > 310, require])";
+    if (word == "format") return "write #pragma format(RGBA8)";
+    if (word == "glBinding") return "write #pragma glBinding(0)";
+    if (word.starts_with("subpass")) return "write #pragma subpassColor in NAME";
+    return "write such as: #pragma define-meta NAME range([0, 3]) | options([a, b]) default(a)";
+}
+
 class Flattener {
 public:
     Flattener(const EffectAsset& effect, ChunkLibrary& chunks, const FlattenLimits& limits, Problems& problems)
@@ -155,9 +166,7 @@ private:
 
     void pragma(std::string_view rest, std::string_view line, Origin origin) {
         Pragma read = readPragma(rest);
-        if (!read.mistake.empty())
-            problems_.error(place(line, origin), read.mistake,
-                            "write such as: #pragma define-meta NAME range([0, 3]) | options([a, b]) default(a)");
+        if (!read.mistake.empty()) problems_.error(place(line, origin), read.mistake, std::string(pragmaExample(rest)));
         if (!read.extension.empty() &&
             std::find(out_.extensions.begin(), out_.extensions.end(), read.extension) == out_.extensions.end())
             out_.extensions.push_back(std::move(read.extension));
@@ -197,12 +206,14 @@ private:
             const bool active = macro == nullptr || std::find(active_.begin(), active_.end(), name) != active_.end();
             keep(call);
             const Origin origin = lines.origin(at + used - 1);
+            const SourceLoc where = placeAt(text, call, name.size(), origin);
+            if (!expandedFrom_) callPlace_ = where;
             CallArguments arguments;
             if (!active && macro->functionLike)
                 arguments = readArguments(lines, at + used - 1, call + name.size(), limits_.maxArgument);
             if (active || (macro->functionLike && !arguments.found)) {
                 if (arguments.unclosed)
-                    problems_.error(place(text, origin), fmt::format("the call of macro '{}' is not closed", name),
+                    problems_.error(where, fmt::format("the call of macro '{}' is not closed", name),
                                     "a ')' is missing");
                 keep(call + name.size());
                 continue;
@@ -213,7 +224,7 @@ private:
                 text = lines.text(arguments.line);
                 from = arguments.end;
                 if (!matchArguments(*macro, arguments.values)) {
-                    problems_.error(place(lines.text(at), origin),
+                    problems_.error(where,
                                     fmt::format("macro '{}' takes {} arguments, {} are given", name,
                                                 macro->parameters.size(), arguments.values.size()),
                                     "give each parameter one");
@@ -236,7 +247,7 @@ private:
                 Pending& pending) {
         bool endsInDirective = false;
         if (++expansions_ > limits_.maxExpansions || active_.size() >= limits_.maxDepth) {
-            stop(macro.name, call, fmt::format("macro '{}' expands without end", macro.name));
+            stopExpanding(macro);
             return false;
         }
         active_.push_back(macro.name);
@@ -250,8 +261,7 @@ private:
             lines.origins.push_back(single ? call : Origin{file, part.line});
             written_ += lines.texts.back().size();
         }
-        if (written_ > limits_.maxBytes)
-            stop(macro.name, call, fmt::format("macro '{}' expands without end", macro.name));
+        if (written_ > limits_.maxBytes) stopExpanding(macro);
         for (std::size_t i = 0; i < lines.texts.size() && !stopped_;) {
             endsInDirective = readDirective(lines.texts[i]).kind != LineKind::Code;
             if (!single) flush(pending);
@@ -283,10 +293,22 @@ private:
             stop(line, origin, fmt::format("the flattened stage is larger than {} MB", limits_.maxBytes >> 20));
     }
 
+    void stopExpanding(const MacroDefinition& macro) {
+        if (stopped_) return;
+        stopped_ = true;
+        const std::string_view name = active_.empty() ? std::string_view(macro.name) : active_.front();
+        problems_.error(callPlace_, fmt::format("macro '{}' expands without end", name),
+                        "macros multiply each other: write out what is meant");
+    }
+
     void stop(std::string_view line, Origin origin, std::string message) {
         if (stopped_) return;
         stopped_ = true;
         problems_.error(place(line, origin), std::move(message), "includes or macros grow without end");
+    }
+
+    SourceLoc placeAt(std::string_view line, std::size_t at, std::size_t length, Origin origin) const {
+        return {out_.flat.files[origin.file], origin.line, int(std::min(at, line.size())) + 1, int(length)};
     }
 
     SourceLoc place(std::string_view line, Origin origin) const {
@@ -315,6 +337,7 @@ private:
     std::vector<const SourceText*> stack_;
     std::vector<std::string_view> active_;  ///< Macros being expanded: they are not expanded within themselves.
     std::optional<Origin> expandedFrom_;    ///< The author's call that writes the present lines.
+    SourceLoc callPlace_;                   ///< Of that call.
     std::size_t includes_ = 0, expansions_ = 0, written_ = 0;
     std::uint32_t file_ = 0;
     bool endedInDirective_ = false;  ///< What the line expanded last ended in.

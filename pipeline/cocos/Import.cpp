@@ -66,6 +66,9 @@ public:
         StageImporter stages(request_, version_, project_, targets, isForward(pipeline), problems_);
         Value flows = Value::makeArray();
         for (const RppFlow& flow : pipeline.flows) addFlow(flow, stages, flows);
+        if (flows.items().empty() && !problems_.hasErrors())
+            problems_.error(pipeline.where, fmt::format("no stage of pipeline '{}' is drawn", pipeline.name),
+                            "list stages in '_stages'; notes say which ones are left out");
         return {pipeline.name, readableJson(makeDocument(pipeline, targets, std::move(flows))), version_};
     }
 
@@ -79,12 +82,14 @@ private:
 
     void checkClass(RppPipeline& pipeline) {
         const bool builtin = isOneOf(pipeline.type, {"ForwardPipeline", "DeferredPipeline"});
-        if (pipeline.flows.empty() && builtin) {
+        if (pipeline.flows.empty() && problems_.hasErrors()) {
+            // Its flows could not be read: they are not those that it has by default.
+        } else if (pipeline.flows.empty() && builtin) {
             addDefaultFlows(pipeline, version_.isV33());
             problems_.note(pipeline.where, fmt::format("'{}' without flows has its default ones", pipeline.type));
         } else if (pipeline.flows.empty()) {
             problems_.error(pipeline.where, fmt::format("pipeline '{}' has no flows", pipeline.name),
-                            "add flows in '_flows'");
+                            R"(list them: "_flows": [ { "__id__": N } ])");
         }
         if (builtin || pipeline.type == "cc.RenderPipeline") return;
         problems_.note(pipeline.where,

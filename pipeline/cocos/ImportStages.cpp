@@ -76,7 +76,7 @@ std::vector<Value> StageImporter::translate(const RppStage& stage) {
         return {};
     }
     if (factsOf(stage.type)) return userStage(stage);
-    unknownClass(stage);
+    if (!stage.type.empty()) unknownClass(stage);
     return {};
 }
 
@@ -206,18 +206,18 @@ void StageImporter::addMaterial(Value& out, const RppStage& stage, std::string_v
         problems_.error(written->value.where, fmt::format("'{}' must be a material or null", field),
                         R"(write { "__uuid__": "…" })");
     }
+    if (!project_.findEffect(builtin)) {
+        problems_.warning(
+            written ? written->value.where : stage.where,
+            fmt::format("effect '{}' of stage '{}' is the engine's, which is not given", builtin, stage.type),
+            "name the folder of an engine: --engine DIR");
+    }
     out.set("effect", word(builtin));
 }
 
 void StageImporter::addMaterialOf(Value& out, const AssetRef& ref, const std::string& what) {
     const Mtl* mtl = project_.material(ref, what, problems_);
-    if (!mtl) return;
-    if (!mtl->effect) {
-        problems_.error(mtl->where, fmt::format("material '{}' names no effect", mtl->name), "set '_effectAsset'");
-        return;
-    }
-    const MetaAsset* file =
-        project_.find(mtl->effect, fmt::format("the effect of material '{}'", mtl->name), problems_);
+    const MetaAsset* file = mtl ? project_.effectFile(*mtl, problems_) : nullptr;
     const EffectAsset* asset = file ? project_.effect(file->path, problems_) : nullptr;
     if (!asset) return;
     const std::string effect = project_.effectName(file->path);
@@ -231,8 +231,8 @@ void StageImporter::addMaterialOf(Value& out, const AssetRef& ref, const std::st
     };
     const MaterialEffect values = instantiate(*mtl, *asset, effect, textures, problems_);
     out.set("effect", word(effect));
-    if (mtl->technique != 0) {
-        problems_.warning(mtl->where,
+    if (mtl->technique != 0 && mtl->technique < asset->techniques.size()) {
+        problems_.warning(mtl->techniqueWhere,
                           fmt::format("technique {} of effect '{}' is asked for; full-screen stages draw technique 0",
                                       mtl->technique, effect),
                           "move it to the front in the effect");

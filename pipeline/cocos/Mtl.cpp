@@ -20,6 +20,8 @@ public:
         if (mtl.name.empty()) mtl.name = std::filesystem::path(file).stem().string();
         mtl.effect = fields_.asset("_effectAsset");
         mtl.technique = readTechnique();
+        const Value* index = fields_.find("_techIdx");
+        mtl.techniqueWhere = index ? index->where() : mtl.where;
         eachPass(mtl, "_defines", [](MtlPass& pass, const Value& value) { pass.defines = value; });
         eachPass(mtl, "_states", [](MtlPass& pass, const Value& value) { pass.states = value; });
         eachPass(mtl, "_props", [this](MtlPass& pass, const Value& value) { readProperties(pass, value); });
@@ -68,6 +70,10 @@ private:
     void checkDefines(const Value& defines) {
         if (!defines.isObject()) return;
         for (const Member& member : defines.members()) {
+            if (member.value.isString() && member.value.string().find('\n') != std::string::npos) {
+                problems_.error(member.value.where(), fmt::format("macro '{}' is a text of several lines", member.key),
+                                "a macro's value is one line of a program");
+            }
             if (!member.value.isArray() && !member.value.isObject()) continue;
             problems_.error(member.value.where(),
                             fmt::format("macro '{}' cannot be {}", member.key, member.value.typeName()),

@@ -28,7 +28,7 @@ struct Mtl {
     AssetRef effect{};
     std::size_t technique = 0;
     std::vector<MtlPass> passes{};  ///< As many as the longest of the file's three lists.
-    SourceLoc where{};
+    SourceLoc where{}, techniqueWhere{};
 };
 
 /// Throws Error for a file that is no material at all; collects what is wrong inside one.

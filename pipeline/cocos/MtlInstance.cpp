@@ -129,7 +129,10 @@ private:
             return wrongKind(property, written);
         }
         numbers.erase(numbers.begin(), numbers.begin() + std::ptrdiff_t(std::min(first, numbers.size())));
-        values.set(property.name, makeNumbers(numbers, countOf(property), written.where), written.where);
+        std::size_t count = countOf(property);
+        // Elements of an array follow each other; the rest of a value that is too long is nothing.
+        if (written.value.kind == Kind::List && count > 0 && numbers.size() % count == 0) count = numbers.size();
+        values.set(property.name, makeNumbers(numbers, count, written.where), written.where);
     }
 
     void setTexture(const EffectProperty& property, const MtlProperty& written, Value& values) {
@@ -184,7 +187,7 @@ MaterialEffect instantiate(const Mtl& mtl, const EffectAsset& asset, const std::
     effect.effect = effectName;
     effect.technique = mtl.technique;
     if (mtl.technique >= asset.techniques.size()) {
-        problems.error(mtl.where,
+        problems.error(mtl.techniqueWhere,
                        fmt::format("material '{}' uses technique {}, but effect '{}' has {}", mtl.name, mtl.technique,
                                    effectName, asset.techniques.size()),
                        "techniques count from 0: correct '_techIdx'");

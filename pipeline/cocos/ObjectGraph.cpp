@@ -72,7 +72,8 @@ const Value* ObjectGraph::resolve(const Value& value, const std::string& what, P
             id->isInteger() && id->integer() >= 0 && static_cast<std::uint64_t>(id->integer()) < objects_.size();
         if (!inRange) {
             problems.error(id->where(),
-                           fmt::format("{} is object {}, but this file has {}", what, id->toJson(-1), objects_.size()),
+                           fmt::format("{} is object {}, but this file has {}", what,
+                                       id->isString() ? "'" + id->string() + "'" : id->toJson(-1), objects_.size()),
                            fmt::format("objects count from 0 to {}", objects_.size() - 1));
             return nullptr;
         }

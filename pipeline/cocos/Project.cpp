@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "cocos/TakeOver.h"
 #include "cocos/Uuid.h"
 
 namespace crevice::cocos {
@@ -74,8 +75,22 @@ const Mtl* Project::material(const AssetRef& ref, const std::string& what, Probl
     } catch (const Error& error) {
         problems.add(error);
     }
-    if (!inside.all().empty()) problems.add(Error(inside.all()));
+    takeOver(inside, problems);
     return known->second.get();
+}
+
+const MetaAsset* Project::effectFile(const Mtl& mtl, Problems& problems) const {
+    if (!mtl.effect) {
+        problems.error(mtl.where, fmt::format("material '{}' names no effect", mtl.name),
+                       R"(set '_effectAsset' to { "__uuid__": "…" })");
+        return nullptr;
+    }
+    const MetaAsset* asset = find(mtl.effect, fmt::format("the effect of material '{}'", mtl.name), problems);
+    if (!asset || asset->path.extension() == ".effect") return asset;
+    problems.error(mtl.effect.where,
+                   fmt::format("the effect of material '{}' is '{}', which is none", mtl.name, asset->path.string()),
+                   "name an .effect file");
+    return nullptr;
 }
 
 const EffectAsset* Project::effect(const fs::path& path, Problems& problems) {
@@ -88,7 +103,7 @@ const EffectAsset* Project::effect(const fs::path& path, Problems& problems) {
     } catch (const Error& error) {
         problems.add(error);
     }
-    if (inside.hasErrors()) problems.add(Error(inside.all()));
+    if (inside.hasErrors()) takeOver(inside, problems);
     return known->second.get();
 }
 

@@ -36,6 +36,8 @@ public:
 
     /// A material; null after errors. Read once.
     const Mtl* material(const AssetRef& ref, const std::string& what, Problems& problems);
+    /// The .effect file of a material; null after errors: it names none, or something else.
+    const MetaAsset* effectFile(const Mtl& mtl, Problems& problems) const;
     /// An effect by the name that effectName() gives, or by reference; null after errors. Read once.
     const EffectAsset* effect(const std::filesystem::path& path, Problems& problems);
 

@@ -10,6 +10,7 @@
 #include "cocos/SceneComponents.h"
 #include "cocos/SceneGlobals.h"
 #include "cocos/SceneModels.h"
+#include "cocos/TakeOver.h"
 
 namespace crevice::cocos {
 namespace {
@@ -66,12 +67,13 @@ private:
         const char* key = type == "cc.SceneAsset" ? "scene" : "data";
         const Value* ref = first.find(key);
         const Value* root = ref ? graph.resolve(*ref, fmt::format("'{}'", key), problems_) : nullptr;
-        if (!root || (type != "cc.SceneAsset" && type != "cc.Prefab")) {
-            problems_.throwIfErrors();
+        if (type != "cc.SceneAsset" && type != "cc.Prefab")
             throw Error(first.where(), fmt::format("this is no scene: its type is '{}'", type),
                         "a .scene begins with an object of type 'cc.SceneAsset'");
-        }
-        return root;
+        if (root) return root;
+        problems_.throwIfErrors();
+        throw Error(first.where(), fmt::format("'{}' of this '{}' is missing", key, type),
+                    R"(let it name the root: { "__id__": N })");
     }
 
     const Value* section(const ObjectGraph& graph, const Value& globals, std::initializer_list<const char*> keys) {
@@ -338,7 +340,16 @@ private:
 
 ImportedScene importScene(const std::filesystem::path& path, Project& project, MaterialForm form,
                           const LoadOptions& options, Problems& problems) {
-    return SceneImporter(project, form, options, problems).run(path);
+    Problems own;  // said twice by the two walks
+    try {
+        ImportedScene scene = SceneImporter(project, form, options, own).run(path);
+        takeOverOnce(own, problems);
+        return scene;
+    } catch (const Error& error) {
+        own.add(error);
+        takeOverOnce(own, problems);
+    }
+    return {};
 }
 
 }  // namespace crevice::cocos

@@ -17,8 +17,8 @@ struct ImportedScene {
 };
 
 /// Units: illuminance in lux, candela = luminance x pi x size² for sphere and spot lights, exposure from aperture,
-/// shutter and ISO of the first camera. What is not read is one note a kind. Throws Error when the file is no scene;
-/// collects other errors.
+/// shutter and ISO of the first camera. What is not read is one note a kind. Errors are collected, each once: the scene
+/// is to be used only when there are none.
 ImportedScene importScene(const std::filesystem::path& path, Project& project, MaterialForm form,
                           const LoadOptions& options, Problems& problems);
 

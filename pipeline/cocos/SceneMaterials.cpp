@@ -42,12 +42,8 @@ int SceneMaterials::add(const AssetRef& material, const std::string& what) {
     readStandardMtl(*mtl, out);
     if (form_ == MaterialForm::Plain) {
         setPlain(out, *mtl);
-    } else if (!mtl->effect) {
-        problems_.error(mtl->where, fmt::format("material '{}' names no effect", mtl->name), "set '_effectAsset'");
-        return -1;
     } else {
-        const MetaAsset* effect =
-            project_.find(mtl->effect, fmt::format("the effect of material '{}'", mtl->name), problems_);
+        const MetaAsset* effect = project_.effectFile(*mtl, problems_);
         if (!effect) return -1;
         setEffect(out, *mtl, effect->path);
     }

@@ -49,7 +49,10 @@ public:
         out_.conditionOf.assign(out_.flat.lines.size(), 0);
         for (const FlatDirective& directive : directives_) read(directive);
         fillTo(out_.flat.lines.size());
-        checkWeights();
+        if (!frames_.empty())
+            problems_.error(placeOf(*frames_.back().opened), "this condition has no '#endif'",
+                            "close it, in the same program or chunk where you can");
+        if (!problems_.hasErrors()) checkWeights();
         listDefined();
         hoist();
     }
@@ -61,6 +64,7 @@ private:
         std::vector<std::string> earlier, current;  ///< That earlier branches were not taken; that this one is.
         std::vector<std::string> negated;           ///< That this one is not.
         std::vector<std::string> raw;               ///< The same as expressions; the last one is the present branch.
+        const FlatDirective* opened = nullptr;
     };
     struct Hoisted {
         const MacroDefinition* macro = nullptr;
@@ -80,6 +84,27 @@ private:
         }
     }
 
+    SourceLoc placeOf(const FlatDirective& directive) const {
+        const std::string_view text = textOf(directive);
+        const auto begin = std::min(text.find_first_not_of(" \t"), text.size());
+        return {out_.flat.files[directive.origin.file], directive.origin.line, static_cast<int>(begin) + 1,
+                static_cast<int>(std::max<std::size_t>(1, text.size() - begin))};
+    }
+
+    /// A word in a line of the text (counted from 1), or the line without its indentation.
+    SourceLoc placeInLine(int line, std::string_view word) const {
+        std::string_view text = out_.flat.text;
+        for (int i = 1; i < line; ++i) text.remove_prefix(std::min(text.find('\n'), text.size() - 1) + 1);
+        text = text.substr(0, text.find('\n'));
+        auto at = word.empty() ? std::string_view::npos : text.find(word);
+        std::size_t length = word.size();
+        if (at == std::string_view::npos) {
+            at = std::min(text.find_first_not_of(" \t"), text.size());
+            length = std::clamp<std::size_t>(text.size() - at, 1, 200);
+        }
+        return out_.flat.locate(line, static_cast<int>(at) + 1, static_cast<int>(length));
+    }
+
     std::string_view textOf(const FlatDirective& directive) const {
         return std::string_view(out_.flat.text).substr(directive.offset, directive.length);
     }
@@ -97,10 +122,14 @@ private:
         fillTo(directive.line);
         const Directive line = readDirective(textOf(directive));
         place_ = &directive;
-        if (line.kind == LineKind::Endif) {
-            if (!frames_.empty()) frames_.pop_back();
-        } else if (line.kind == LineKind::Else || line.kind == LineKind::Elif) {
-            if (!frames_.empty()) readBranch(line);
+        const bool opens = line.kind != LineKind::Endif && line.kind != LineKind::Else && line.kind != LineKind::Elif;
+        if (!opens && frames_.empty()) {
+            problems_.error(placeOf(directive), "this line belongs to no '#if'",
+                            "remove it, or open a condition above");
+        } else if (line.kind == LineKind::Endif) {
+            frames_.pop_back();
+        } else if (!opens) {
+            readBranch(line);
         } else {
             open(line);
         }
@@ -114,6 +143,7 @@ private:
         frame.current = condition.needs;
         frame.negated = condition.negated;
         frame.raw.push_back(rawOf(line));
+        frame.opened = place_;
         frames_.push_back(std::move(frame));
     }
 
@@ -275,10 +305,11 @@ private:
         std::string_view heaviest;
         const int line = weights.firstTooHeavy(out_.flat.text, heaviest);
         if (line == 0) return;
+        const SourceLoc where = placeInLine(line, heaviest);
         if (heaviest.empty())
-            return problems_.error(out_.flat.locate(line), "this statement is longer than the compiler can take",
+            return problems_.error(where, "this statement is longer than the compiler can take",
                                    "split it, or use a loop");
-        problems_.error(out_.flat.locate(line),
+        problems_.error(where,
                         fmt::format("macro '{}' stands for more than {} words here", heaviest, MacroWeights::kMaxWords),
                         "macros multiply each other: write out what is meant");
     }

@@ -55,9 +55,11 @@ private:
                 problems_.error(value.where(), "a technique has no 'passes'", "passes: - { vert: …, frag: … }");
             return;
         }
+        indexWhere_.clear();
         for (const Value& item : passes->items())
             if (expectMap(item, "a pass")) technique.passes.push_back(readPass(item));
-        for (EffectPass& pass : technique.passes) inheritProperties(pass, technique);
+        for (std::size_t i = 0; i < technique.passes.size(); ++i)
+            inheritProperties(technique.passes[i], technique, indexWhere_[i]);
         effect_.techniques.push_back(std::move(technique));
     }
 
@@ -70,6 +72,7 @@ private:
         if (const Value* priority = reader.find("priority")) pass.priority = readPriority(*priority);
         if (const Value* name = reader.string("switch")) pass.switchMacro = name->string();
         if (const Value* macros = reader.object("embeddedMacros")) readMacros(*macros, pass);
+        indexWhere_.push_back(pass.where);
         if (const Value* index = reader.number("propertyIndex")) readPropertyIndex(*index, pass);
         if (const Value* name = reader.string("pass")) pass.passName = name->string();
         for (const char* ignored : {"subpass", "stage", "migrations"}) reader.find(ignored);
@@ -97,7 +100,8 @@ private:
             problems_.error(pass.where, "a pass names no program", "give it vert and frag, or compute");
         else if (pass.compute.empty() && pass.vertex.empty())
             problems_.error(pass.where, "a pass has 'frag' without 'vert'",
-                            "a full-screen pass uses vert: fullscreen-vs");
+                            reading_ == EffectReading::Strict ? "a full-screen pass uses vert: fullscreen-vs"
+                                                              : "name its vertex program: vert: program:entry");
         else if (pass.compute.empty() && pass.fragment.empty())
             problems_.error(pass.where, "a pass has 'vert' without 'frag'",
                             "name a fragment program; for depth alone one with an empty main()");
@@ -108,16 +112,17 @@ private:
             problems_.error(index.where(), "'propertyIndex' must be the number of a pass", "passes count from 0");
         else
             pass.propertyIndex = static_cast<int>(index.integer());
+        indexWhere_.back() = index.where();
     }
 
-    void inheritProperties(EffectPass& pass, const EffectTechnique& technique) {
+    void inheritProperties(EffectPass& pass, const EffectTechnique& technique, const SourceLoc& where) {
         if (!pass.propertyIndex) return;
         const auto index = static_cast<std::size_t>(*pass.propertyIndex);
         if (index >= technique.passes.size())
             problems_.error(
-                pass.where,
+                where,
                 fmt::format("'propertyIndex' is {}, but the technique has {} passes", index, technique.passes.size()),
-                "passes count from 0");
+                fmt::format("passes count from 0: the last one is {}", technique.passes.size() - 1));
         else if (pass.properties.empty() && &technique.passes[index] != &pass)
             pass.properties = technique.passes[index].properties;
     }
@@ -187,6 +192,10 @@ private:
             const std::size_t count = value.items().size();
             good = (count >= 2 && count <= 4) || count == 16 || (tolerant && count >= 1);
             for (const Value& item : value.items()) good = good && item.isNumber();
+            if (good && tolerant && count > 4 && count != 9 && count != 16)
+                problems_.warning(value.where(),
+                                  fmt::format("the value of property '{}' has {} numbers", property.name, count),
+                                  "uniforms have 1 to 4, matrices 9 or 16; the rest is not read");
         }
         if (!good)
             problems_.error(
@@ -220,6 +229,7 @@ private:
     EffectAsset& effect_;
     EffectReading reading_;
     Problems& problems_;
+    std::vector<SourceLoc> indexWhere_;  ///< Of `propertyIndex` of the present technique's passes.
 };
 
 }  // namespace

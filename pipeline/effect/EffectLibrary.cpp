@@ -118,7 +118,8 @@ fs::path EffectLibrary::State::findFile(const std::string& effect, const SourceL
         if (fromDocument && !roots.contains(path))
             throw Error(where, fmt::format("effect '{}' lies outside of the asset folders", effect),
                         "name an effect below effects/");
-        if (!fs::is_regular_file(path, error)) throw Error(where, fmt::format("no effect file '{}'", effect));
+        if (!fs::is_regular_file(path, error))
+            throw Error(where, fmt::format("no effect file '{}'", effect), "check the spelling of the path");
         return path;
     }
     if (const auto path = roots.find(AssetKind::Effect, effect)) return *path;

@@ -138,6 +138,57 @@ std::string adviceFor(std::string_view text) {
     return "programs are GLSL 4.50 for Vulkan: see docs/effect-format.md";
 }
 
+std::string_view lineOf(const StageSource& source, int line) {
+    const auto lines = splitLines(source.text);
+    return line < 1 || line > static_cast<int>(lines.size()) ? std::string_view()
+                                                             : lines[static_cast<std::size_t>(line) - 1];
+}
+
+/// A character that stands in no GLSL program outside of its comments: where and what it is.
+std::optional<Problem> strangeCharacter(const StageSource& source, int line) {
+    const std::string_view text = lineOf(source, line);
+    const auto isStrange = [](char c) {
+        return static_cast<unsigned char>(c) >= 0x7f || (c >= 0 && c < ' ' && c != '\t');
+    };
+    const auto at = std::find_if(text.begin(), text.end(), isStrange);
+    if (at == text.end()) return std::nullopt;
+    SourceLoc where = source.flat.locate(line, static_cast<int>(at - text.begin()) + 1, 1);
+    return Problem{Severity::Error, where,
+                   fmt::format("the byte 0x{:02x} is no part of GLSL", static_cast<unsigned char>(*at)),
+                   "outside of comments only ASCII is allowed: look for full-width brackets, commas and blanks"};
+}
+
+/// Functions of GLSL ES 1, which Cocos' older effects still call.
+std::string adviceForOldFunctions(std::string_view line) {
+    for (const auto& [old, now] : {std::pair{"texture2DLod(", "textureLod"},
+                                   {"textureCubeLod(", "textureLod"},
+                                   {"texture2DProj(", "textureProj"},
+                                   {"texture2D(", "texture"},
+                                   {"textureCube(", "texture"}}) {
+        if (!contains(line, old)) continue;
+        const std::string_view name(old);
+        return fmt::format("GLSL 4.50 has {}() instead of {}()", now, name.substr(0, name.size() - 1));
+    }
+    return {};
+}
+
+/// A function that is a macro of the stage too: GLSL does not expand a macro within itself.
+bool isMacroOf(const StageSource& source, const std::string& name) {
+    return !name.empty() && contains(source.text, "#define " + name + "(");
+}
+
+/// An #if or #elif whose expression glslang could not read; it names the line behind.
+Problem describeCondition(const StageSource& source, int line) {
+    const auto isCondition = [&](int at) {
+        std::string_view text = lineOf(source, at);
+        text.remove_prefix(std::min(text.find_first_not_of(" \t"), text.size()));
+        return text.starts_with("#if") || text.starts_with("#elif");
+    };
+    while (line > 1 && !isCondition(line)) --line;
+    return {Severity::Error, placeOf(source, line, {}), "this condition is no complete expression",
+            "close its brackets, and give every operator its two sides"};
+}
+
 /// Link messages in one line, names in single quotes.
 std::string plainLink(std::string text) {
     const auto replace = [&](std::string_view from, std::string_view to) {
@@ -165,12 +216,21 @@ Problem describe(const Message& message, const StageSource& source, int line) {
                 "#error " + std::string(text.substr(std::min(begin, text.size()))),
                 "the program refuses itself: change what it asks for, such as a define"};
     }
+    if (message.word == "preprocessor evaluation") return describeCondition(source, line);
     const bool syntax = message.text.starts_with(kSyntaxError);
+    if (syntax || contains(message.text, "unexpected token")) {
+        if (auto strange = strangeCharacter(source, line)) return *strange;
+    }
     Problem problem{Severity::Error, placeOf(source, line, message.word),
                     "GLSL: " + (syntax ? plainSyntax(message.text) : message.text),
                     syntax ? "a ';' or a bracket may be missing in front of it" : adviceFor(message.text)};
     if (!message.word.empty()) problem.message = fmt::format("GLSL: '{}': {}", message.word, message.text);
-    if (message.text == "undeclared identifier" || contains(message.text, "no matching overloaded function")) {
+    if (const std::string old = adviceForOldFunctions(lineOf(source, line)); !old.empty()) {
+        problem.help = old;
+    } else if (contains(message.text, "no matching overloaded function") && isMacroOf(source, message.word)) {
+        problem.help =
+            fmt::format("macro '{}' stands for itself in the end: GLSL expands no macro twice", message.word);
+    } else if (message.text == "undeclared identifier" || contains(message.text, "no matching overloaded function")) {
         auto names = Declarations(source.flat).names();
         std::erase(names, message.word);
         if (const auto near = nearestNames(message.word, names, 1); !near.empty())

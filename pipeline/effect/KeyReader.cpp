@@ -27,8 +27,9 @@ const Value* KeyReader::typed(const char* key, bool (Value::*is)() const, const 
     if (value == nullptr || (value->*is)()) return value;
     if (!strict() && value->isNull()) return nullptr;  // `properties:` with nothing behind it.
     if (!strict() && kind != "a list" && kind != "a map") {
-        problems_.verbose(value->where(),
-                          fmt::format("'{}' of {} is {}: it is not read", key, what_, value->typeName()));
+        problems_.warning(value->where(),
+                          fmt::format("'{}' of {} is {}: it is not read", key, what_, value->typeName()),
+                          fmt::format("write {}: {}", key, example));
         return nullptr;
     }
     problems_.error(value->where(), fmt::format("'{}' of {} must be {}, not {}", key, what_, wanted, value->typeName()),

@@ -36,9 +36,9 @@ struct MemberShape {
     std::uint32_t components = 0;
 };
 
+/// Of one element.
 MemberShape shapeOf(const BlockMember& member) {
     const std::string& type = member.type;
-    if (member.arrayCount != 0) return {};
     if (type == "float") return {true, false, 1};
     if (type == "int" || type == "uint") return {true, true, 1};
     if (type == "mat4") return {true, false, 16};
@@ -90,15 +90,29 @@ Material::Material(const EffectVariant& variant, LinearRule linear)
             samplers_.push_back(std::move(sampler));
         }
     }
+    if (linear_ == LinearRule::AsGiven) setIdentities();
     Problems problems;
     for (const EffectProperty& property : pass_.properties) {
         if (MaterialSampler* sampler = findSampler(targetUniform(property))) {
             sampler->isProperty = true;
             sampler->sampler = property.sampler;
         }
-        if (!property.value.isNull()) setValue(property, property.value, problems);
+        if (!property.value.isNull()) setValue(property, property.value, problems, true);
     }
     problems.throwIfErrors();
+}
+
+void Material::setIdentities() {
+    for (const ShaderResource& resource : variant_.info.resources) {
+        for (const BlockMember& member : resource.members) {
+            const auto block = std::find_if(blocks_.begin(), blocks_.end(),
+                                            [&](const MaterialBlock& b) { return b.slot == resource.slot; });
+            if (member.type != "mat4" || block == blocks_.end()) continue;
+            constexpr glm::mat4 kIdentity(1.0f);
+            for (std::size_t at = 0; at + sizeof kIdentity <= member.size; at += sizeof kIdentity)
+                std::memcpy(block->bytes.data() + member.offset + at, &kIdentity, sizeof kIdentity);
+        }
+    }
 }
 
 void Material::apply(const Value& object, Problems& problems) {
@@ -121,7 +135,7 @@ void Material::apply(const Value& object, Problems& problems) {
     }
 }
 
-void Material::setValue(const EffectProperty& property, const Value& value, Problems& problems) {
+void Material::setValue(const EffectProperty& property, const Value& value, Problems& problems, bool isDefault) {
     if (MaterialSampler* sampler = findSampler(targetUniform(property)))
         return setTexture(property, *sampler, value, problems);
     const bool isTexture = property.value.isString() && !isAuto(property.value);
@@ -144,21 +158,31 @@ void Material::setValue(const EffectProperty& property, const Value& value, Prob
     Place place;
     const bool placed = findPlace(property, place, problems);
     const std::uint32_t expected = placed ? place.components : wanted;
-    if (expected != 0 && countOf(value) != expected) {
+    const bool fits = linear_ == LinearRule::AsGiven ? countOf(value) >= expected : countOf(value) == expected;
+    if (expected != 0 && !fits) {
         problems.error(value.where(),
                        fmt::format("property '{}' takes {}, not {}", property.name, numbers(expected), countOf(value)),
                        expected == 1 ? "give one number" : fmt::format("give a list of {}: [ … ]", numbers(expected)));
         return;
     }
     values_[property.name] = value;
-    for (std::uint32_t i = 0; placed && i < place.components; ++i) {
-        float number = static_cast<float>(component(value, i));
-        if (linear_ == LinearRule::FromSrgb && property.linear && i < 3 && place.components >= 3)
+    if (placed) writeNumbers(property, value, place, isDefault);
+}
+
+void Material::writeNumbers(const EffectProperty& property, const Value& value, const Place& place, bool isDefault) {
+    const std::uint32_t given = countOf(value) / place.components;  // whole elements
+    const std::uint32_t elements = isDefault ? place.elements : std::min(given, place.elements);
+    for (std::uint32_t i = 0; i < elements * place.components; ++i) {
+        const std::uint32_t element = i / place.components, part = i % place.components;
+        const double written = component(value, element % given * place.components + part);
+        auto number = static_cast<float>(written);
+        if (linear_ == LinearRule::FromSrgb && property.linear && part < 3 && place.components >= 3)
             number = linearFromSrgb(number);
         const auto integer =
-            static_cast<std::int32_t>(std::clamp(component(value, i), double(std::numeric_limits<std::int32_t>::min()),
+            static_cast<std::int32_t>(std::clamp(written, double(std::numeric_limits<std::int32_t>::min()),
                                                  double(std::numeric_limits<std::int32_t>::max())));
-        std::byte* out = blocks_[place.block].bytes.data() + place.offset + i * sizeof(float);
+        std::byte* out =
+            blocks_[place.block].bytes.data() + place.offset + element * place.stride + part * sizeof(float);
         std::memcpy(out, place.integer ? static_cast<const void*>(&integer) : &number, sizeof(float));
     }
 }
@@ -216,19 +240,25 @@ bool Material::findPlace(const EffectProperty& property, Place& place, Problems&
         const MemberShape shape = shapeOf(*member);
         const int start = swizzle.empty() ? 0 : swizzleStart(swizzle);
         const auto count = static_cast<std::uint32_t>(swizzle.empty() ? shape.components : swizzle.size());
-        if (!shape.known || start < 0 || static_cast<std::uint32_t>(start) + count > shape.components) {
-            problems.error(property.where,
-                           fmt::format("property '{}' cannot feed '{}' of type {}{}", property.name,
-                                       property.target.empty() ? uniform : property.target, member->type,
-                                       member->arrayCount != 0 ? " array" : ""),
-                           "targets are scalars and vectors, or a run of components such as .xy",
-                           {{resource.where, fmt::format("the block '{}'", resource.name)}});
+        const bool array = member->arrayCount != 0;
+        const bool good = shape.known && (!array || (linear_ == LinearRule::AsGiven && swizzle.empty()));
+        if (!good || start < 0 || static_cast<std::uint32_t>(start) + count > shape.components) {
+            problems.error(
+                property.where,
+                fmt::format("property '{}' cannot feed '{}' of type {}{}", property.name,
+                            property.target.empty() ? uniform : property.target, member->type, array ? " array" : ""),
+                "targets are scalars and vectors, or a run of components such as .xy",
+                {{resource.where, fmt::format("the block '{}'", resource.name)}});
             return false;
         }
         const auto block = std::find_if(blocks_.begin(), blocks_.end(),
                                         [&](const MaterialBlock& b) { return b.slot == resource.slot; });
-        place = {static_cast<std::size_t>(block - blocks_.begin()),
-                 member->offset + static_cast<std::size_t>(start) * sizeof(float), count, shape.integer};
+        place = {.block = static_cast<std::size_t>(block - blocks_.begin()),
+                 .offset = member->offset + static_cast<std::size_t>(start) * sizeof(float),
+                 .stride = array ? member->size / member->arrayCount : 0,
+                 .components = count,
+                 .elements = std::max(1u, member->arrayCount),
+                 .integer = shape.integer};
         return true;
     }
     return false;

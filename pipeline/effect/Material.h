@@ -40,7 +40,9 @@ struct MaterialSampler {
 class Material {
 public:
     /// What becomes of values whose property is `linear`: converted from sRGB, or taken as they are by a caller that
-    /// converts them itself.
+    /// converts them itself. The latter is how Cocos' materials are written: there matrices that nothing sets are
+    /// identities, arrays take the values of their elements one after the other (a default is every element's), and
+    /// what a uniform has no room for is cut off.
     enum class LinearRule { FromSrgb, AsGiven };
 
     /// Throws Error when a default does not fit its uniform.
@@ -73,10 +75,13 @@ private:
     struct Place {
         std::size_t block = 0;
         std::size_t offset = 0;  ///< Bytes.
-        std::uint32_t components = 0;
+        std::size_t stride = 0;  ///< Bytes from one element of an array to the next.
+        std::uint32_t components = 0, elements = 1;
         bool integer = false;
     };
-    void setValue(const EffectProperty& property, const Value& value, Problems& problems);
+    void setIdentities();
+    void setValue(const EffectProperty& property, const Value& value, Problems& problems, bool isDefault = false);
+    void writeNumbers(const EffectProperty& property, const Value& value, const Place& place, bool isDefault);
     void setTexture(const EffectProperty& property, MaterialSampler& sampler, const Value& value, Problems& problems);
     bool checkNumbers(const EffectProperty& property, const Value& value, Problems& problems) const;
     bool findPlace(const EffectProperty& property, Place& place, Problems& problems) const;

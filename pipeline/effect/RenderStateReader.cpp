@@ -52,6 +52,13 @@ std::string lower(std::string text) {
 }
 
 template <class Enum, std::size_t N>
+std::vector<std::string> wordsOf(const std::array<Named<Enum>, N>& names) {
+    std::vector<std::string> words;
+    for (const auto& named : names) words.emplace_back(named.name);
+    return words;
+}
+
+template <class Enum, std::size_t N>
 void readEnum(KeyReader& reader, const char* key, const std::array<Named<Enum>, N>& names, Enum& out) {
     const Value* value = reader.find(key);
     if (value == nullptr || value->isNull()) return;
@@ -60,21 +67,22 @@ void readEnum(KeyReader& reader, const char* key, const std::array<Named<Enum>, 
         const bool known = !reader.strict() && value->isInteger() && value->integer() >= 0 && value->integer() < int(N);
         if (known && !std::is_same_v<Enum, Topology>)
             out = names[std::size_t(value->integer())].value;
+        else if (value->isNumber() && !reader.strict())
+            reader.problems().error(value->where(), fmt::format("{} is no value for '{}'", value->toJson(-1), key),
+                                    "numbers count these from 0: " + join(wordsOf(names)));
         else
             reader.string(key);
         return;
     }
     const std::string word = lower(value->string());
-    std::vector<std::string> known;
     for (const auto& named : names) {
         if (word == named.name) {
             out = named.value;
             return;
         }
-        known.emplace_back(named.name);
     }
     reader.problems().error(value->where(), fmt::format("'{}' is no value for '{}'", value->string(), key),
-                            didYouMean(word, known, "values"));
+                            didYouMean(word, wordsOf(names), "values"));
 }
 
 void readBool(KeyReader& reader, const char* key, bool& out) {
@@ -229,12 +237,21 @@ void readBlend(KeyReader& reader, RenderState& state) {
     reader.finish();
 }
 
-/// Cocos' other primitives (loops, adjacency, patches) are never drawn by its own effects.
+/// Cocos' other primitives, which are never drawn by its own effects.
+constexpr const char* kOtherPrimitives[] = {"line_loop",
+                                            "line_list_adjacency",
+                                            "line_strip_adjacency",
+                                            "iso_line_list",
+                                            "triangle_list_adjacency",
+                                            "triangle_strip_adjacency",
+                                            "triangle_patch_adjacency",
+                                            "quad_patch_list"};
+
 void readTopology(KeyReader& pass, Topology& out) {
     const Value* value = pass.find("primitive");
     const bool other = value != nullptr && !pass.strict() && value->isString() &&
-                       std::none_of(std::begin(kTopologies), std::end(kTopologies),
-                                    [&](const auto& named) { return lower(value->string()) == named.name; });
+                       std::any_of(std::begin(kOtherPrimitives), std::end(kOtherPrimitives),
+                                   [&](const char* name) { return lower(value->string()) == name; });
     if (other)
         pass.problems().warning(value->where(), fmt::format("primitive '{}' is not drawn by Crevice", value->string()),
                                 "the pass is read as one of triangles");

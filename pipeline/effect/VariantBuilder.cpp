@@ -13,19 +13,11 @@
 namespace crevice {
 namespace {
 
-/// With an entry, main() is ours: it hands the entry's result to the place where the stage's result goes.
 std::string entryText(ShaderStageBits stage, const std::string& entry) {
     if (entry.empty()) return {};
     if (stage == kVertexBit) return fmt::format("void main() {{ gl_Position = {}(); }}\n", entry);
     if (stage == kComputeBit) return fmt::format("void main() {{ {}(); }}\n", entry);
     return fmt::format("layout(location = 0) out vec4 cc_FragColor; void main() {{ cc_FragColor = {}(); }}\n", entry);
-}
-
-void appendEntry(FlatSource& flat, ShaderStageBits stage, const std::string& entry, const SourceLoc& where) {
-    if (entry.empty()) return;
-    flat.text += entryText(stage, entry);
-    flat.files.push_back(where.file);
-    flat.lines.push_back({static_cast<std::uint32_t>(flat.files.size() - 1), where.line});
 }
 
 Defines mergeDefines(const EffectPass& pass, const VariantRequest& request, Problems& problems) {
@@ -73,6 +65,13 @@ FlatPass flattenPass(const IncludeSources& sources, const EffectPass& pass, Prob
         appendEntry(flat.sources.back(), part.stage, reference.entry, part.where);
     }
     return flat;
+}
+
+void appendEntry(FlatSource& flat, ShaderStageBits stage, const std::string& entry, const SourceLoc& where) {
+    if (entry.empty()) return;
+    flat.text += entryText(stage, entry);
+    flat.files.push_back(where.file);
+    flat.lines.push_back({static_cast<std::uint32_t>(flat.files.size() - 1), where.line});
 }
 
 std::vector<StageSource> makeStageSources(FlatPass flat, const EffectPass& pass, const VariantRequest& request,

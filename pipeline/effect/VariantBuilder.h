@@ -15,6 +15,10 @@ struct ProgramReference {
 };
 ProgramReference parseProgram(const std::string& reference);
 
+/// With an entry, main() is ours: one more line hands the entry's result to the place where the stage's result goes.
+/// Errors in it are the pass': `where`.
+void appendEntry(FlatSource& flat, ShaderStageBits stage, const std::string& entry, const SourceLoc& where);
+
 /// A stage that a pass names, and where it does.
 struct StagePart {
     ShaderStageBits stage;

@@ -1,7 +1,6 @@
 // Each row of the tables in docs/gltf.md names a test, and the test exists.
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <map>
 #include <regex>
 #include <set>
@@ -9,28 +8,12 @@
 
 #include <gtest/gtest.h>
 
+#include "TestNames.h"
+
 namespace crevice {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string textOf(const fs::path& path) {
-    std::ifstream file(path);
-    return {std::istreambuf_iterator<char>(file), {}};
-}
-
-/// "Suite.Name" of every TEST and TEST_F.
-std::set<std::string> testsThereAre(const fs::path& folder) {
-    std::set<std::string> names;
-    const std::regex macro(R"(TEST(?:_F|_P)?\((\w+),\s*(\w+)\))");
-    for (const auto& entry : fs::recursive_directory_iterator(folder)) {
-        if (entry.path().extension() != ".cpp") continue;
-        const std::string text = textOf(entry.path());
-        for (std::sregex_iterator match(text.begin(), text.end(), macro), end; match != end; ++match)
-            names.insert((*match)[1].str() + "." + (*match)[2].str());
-    }
-    return names;
-}
 
 TEST(DocsGltf, EveryRowNamesATestThatExists) {
     const fs::path root = CREVICE_TEST_SOURCE_DIR;

@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 fs::path checkFolder(const char* option, const std::string& folder) {
     std::error_code failed;
     if (folder.empty() || fs::is_directory(folder, failed)) return folder;
-    throw Error(fmt::format("{}: folder '{}' does not exist", option, folder), "name an existing folder");
+    throw Error(fmt::format("{}: no folder '{}'", option, folder), "name a folder that exists");
 }
 
 std::vector<cocos::StageFacts> factsOf(const StageRegistry& registry) {

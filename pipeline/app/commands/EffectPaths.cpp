@@ -43,7 +43,9 @@ std::vector<std::string> effectsBelow(const fs::path& folder) {
             found.push_back(entry.path().string());
     }
     std::sort(found.begin(), found.end());
-    if (found.empty()) throw Error(fmt::format("no .effect file below '{}'", folder.string()));
+    if (found.empty())
+        throw Error(fmt::format("no .effect file below '{}'", folder.string()),
+                    "name a folder that holds .effect files, or one of them");
     return found;
 }
 

@@ -1,5 +1,6 @@
 // `crevice effects compile`: do these effects compile, in which variants, and to what?
 #include <algorithm>
+#include <cctype>
 #include <memory>
 
 #include <fmt/format.h>
@@ -34,6 +35,15 @@ struct CompileOptions {
     bool allVariants = false, json = false, text = false, noCache = false;
 };
 
+void checkMacro(const std::string& name, const std::string& value) {
+    const auto isWord = [](unsigned char c) { return std::isalnum(c) != 0 || c == '_'; };
+    if (!std::all_of(name.begin(), name.end(), isWord) || std::isdigit(static_cast<unsigned char>(name.front())) != 0)
+        throw Error(fmt::format("--define: '{}' is no name of a macro", name),
+                    "names have letters, digits and '_', and begin with no digit");
+    if (value.empty())
+        throw Error(fmt::format("--define: macro '{}' has no value", name), fmt::format("write --define {}=1", name));
+}
+
 /// One run of the command.
 class CompileRun {
 public:
@@ -47,6 +57,7 @@ public:
           report_(options.json, options.text, log_) {
         for (const std::string& define : options.defines) {
             auto [name, value] = parseAssignment("--define", define, "NAME=VALUE");
+            checkMacro(name, value);
             given_[name] = value;
         }
         const bool cocos = readsCocos(options.cocos, effects_, roots_);

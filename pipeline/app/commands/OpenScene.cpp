@@ -13,12 +13,8 @@ OpenedScene openScene(const SceneFile& file, const PipelineChoice& pipeline, con
     if (isCocosScene(file.path.string())) {
         const LoadOptions load = makeLoadOptions(pipeline.roots(), log, options);
         const auto form = profile ? cocos::MaterialForm::Effects : cocos::MaterialForm::Plain;
-        try {
-            auto imported = cocos::importScene(file.path, pipeline.cocos()->assets(log), form, load, problems);
-            opened = {std::move(imported.scene), imported.background};
-        } catch (const Error& error) {
-            problems.add(error);
-        }
+        auto imported = cocos::importScene(file.path, pipeline.cocos()->assets(log), form, load, problems);
+        opened = {std::move(imported.scene), imported.background};
     } else {
         opened.scene = loadSceneFile(file, pipeline.roots(), log, options);
         if (profile && pipeline.cocos())

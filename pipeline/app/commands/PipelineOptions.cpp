@@ -63,7 +63,10 @@ PipelineChoice::PipelineChoice(const std::string& nameOrPath, const PipelineOpti
     std::vector<std::string> files{nameOrPath};
     files.insert(files.end(), scenes.begin(), scenes.end());
     cocos_ = openCocosProject(options.cocos, files);
-    if (isCocosPipeline(nameOrPath)) request_.text = cocos_->importPipeline(nameOrPath, classes_.registry(), log).text;
+    if (isCocosPipeline(nameOrPath)) {
+        request_.text = cocos_->importPipeline(nameOrPath, classes_.registry(), log).text;
+        request_.nameOrPath += " (translated)";  // its lines are not those of the .rpp
+    }
     for (const std::string& option : options.options) {
         const auto [name, value] = parseAssignment("--option", option, "NAME=VALUE");
         if (!request_.options.emplace(name, value).second) {
