@@ -2,6 +2,7 @@
 #include "cocos/ObjectGraph.h"
 
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include <fmt/format.h>
@@ -110,7 +111,11 @@ const Value* FieldReader::typed(std::string_view key, bool (Value::*is)() const,
 
 double FieldReader::number(std::string_view key, double otherwise) const {
     const Value* value = typed(key, &Value::isNumber, "a number");
-    return value ? value->number() : otherwise;
+    if (!value) return otherwise;
+    if (std::abs(value->number()) <= double(std::numeric_limits<float>::max())) return value->number();
+    problems_.error(value->where(), fmt::format("'{}' is {}, more than a float holds", key, value->toJson(-1)),
+                    "write a number that can be computed with");
+    return otherwise;
 }
 
 std::int64_t FieldReader::integer(std::string_view key, std::int64_t otherwise) const {

@@ -51,7 +51,7 @@ private:
 class FieldReader {
 public:
     FieldReader(const Value& object, Problems& problems) : object_(object), problems_(problems) {}
-    double number(std::string_view key, double otherwise) const;
+    double number(std::string_view key, double otherwise) const;  ///< One that a float holds; others are errors.
     std::int64_t integer(std::string_view key, std::int64_t otherwise) const;
     bool boolean(std::string_view key, bool otherwise) const;
     std::string text(std::string_view key, std::string otherwise = {}) const;

@@ -2,6 +2,7 @@
 #include "cocos/TypedValue.h"
 
 #include <cmath>
+#include <limits>
 
 #include <fmt/format.h>
 
@@ -36,6 +37,8 @@ const std::vector<NumberType>& numberTypes() {
     return kTypes;
 }
 
+bool fitsFloat(double number) { return std::abs(number) <= double(std::numeric_limits<float>::max()); }
+
 Value readNumbers(const Value& object, const NumberType& type, Problems& problems) {
     Value list = Value::makeArray(object.where());
     for (std::size_t i = 0; i < type.components.size(); ++i) {
@@ -47,6 +50,11 @@ Value readNumbers(const Value& object, const NumberType& type, Problems& problem
                                fmt::format("'{}' of a {} must be a number, not {}", type.components[i], type.name,
                                            written->typeName()),
                                "write a number");
+            } else if (!fitsFloat(written->number())) {
+                problems.error(written->where(),
+                               fmt::format("'{}' of a {} is {}, more than a float holds", type.components[i], type.name,
+                                           written->toJson(-1)),
+                               "write a number that a shader can compute with");
             } else {
                 number = written->number();
             }

@@ -205,6 +205,25 @@ TEST_F(CocosHeader, BlocksEndAtTheFirstClosingSign) {
     EXPECT_EQ(firstError(), "the file has no CCEffect block");
 }
 
+TEST_F(CocosHeader, ValuesThatCannotBeMeantAreWarnings) {
+    pass(
+        "      switch: 5\n      properties:\n        a: { value: 1, target: [x] }\n        b: { value: [1, 2, 3, 4, 5] "
+        "}\n"
+        "        c: { value: [1, 0, 0, 0, 1, 0, 0, 0, 1] }\n");
+    std::vector<std::string> warnings;
+    for (const Problem& problem : problems.all())
+        if (problem.severity == Severity::Warning) warnings.push_back(problem.message);
+    EXPECT_THAT(warnings, ElementsAre("'switch' of a pass is a number: it is not read",
+                                      "'target' of property 'a' is a list: it is not read",
+                                      "the value of property 'b' has 5 numbers"));
+}
+
+TEST_F(CocosHeader, AWrongPropertyIndexIsShownWhereItIsWritten) {
+    read("  techniques:\n  - passes:\n    - vert: vs\n      frag: fs\n      propertyIndex: 1\n");
+    ASSERT_TRUE(problems.hasErrors());
+    EXPECT_EQ(problems.all()[0].where.line, 6);
+}
+
 TEST_F(CocosHeader, HostileYamlEnds) {
     std::string bomb = "  a0: &a0 [x, x, x, x, x, x, x, x, x, x]\n";
     for (int i = 1; i < 12; ++i) {

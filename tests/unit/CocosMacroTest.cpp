@@ -163,6 +163,23 @@ TEST(CocosMacro, WrongCallsAreErrorsOfTheAuthorsLine) {
     EXPECT_EQ(problem.where.line, 16);
 }
 
+TEST(CocosMacro, ConditionsMustCloseOverIncludes) {
+    CocosBench bench;
+    bench.chunk("open", "\n#if USE_A\nfloat a;\n");
+    bench.fragment("#include <open>\nfloat b;\n");
+    Problem problem = bench.problem();
+    EXPECT_EQ(problem.message, "this condition has no '#endif'");
+    EXPECT_EQ(problem.where.line, 2);
+    EXPECT_THAT(problem.where.file, HasSubstr("open.chunk"));
+    bench.fragment("#include <open>\n#endif\nfloat b;\n");
+    EXPECT_EQ(bench.problem().message, "");  // Closed by another file: odd, and allowed.
+    bench.fragment("float b;\n  #endif\n");
+    problem = bench.problem();
+    EXPECT_EQ(problem.message, "this line belongs to no '#if'");
+    EXPECT_EQ(problem.where.line, 12);
+    EXPECT_EQ(problem.where.column, 3);
+}
+
 // What hostile files do.
 TEST(CocosMacro, BombsOfWrittenOutMacrosEnd) {
     CocosBench bench;

@@ -163,6 +163,21 @@ TEST(CocosMtl, ValuesTakeTheLengthOfTheirUniform) {
               R"({"tiling":[1,2],"mainColor":[5,6,7,0],"metallic":0.5,"offset":[1,2]})");
 }
 
+TEST(CocosMtl, ArraysKeepAllOfTheirElements) {
+    const MaterialEffect made = make(withProps(
+        R"([ { "tiling": [ { "__type__": "cc.Vec2", "x": 1, "y": 2 }, { "__type__": "cc.Vec2", "x": 3, "y": 4 } ],
+               "mainColor": [ 1, 2, 3, 4, 5, 6, 7, 8 ], "offset": [ 1, 2, 3 ] } ])"));
+    EXPECT_EQ(made.passes[0].properties.toJson(-1),
+              R"({"tiling":[1,2,3,4],"mainColor":[1,2,3,4,5,6,7,8],"offset":[1,2]})");
+}
+
+TEST(CocosMtl, MacrosOfSeveralLinesAreErrors) {
+    Problems problems;
+    parseMtl(R"({ "__type__": "cc.Material", "_defines": [ { "A": "one\ntwo", "B": "v_uv" } ] })", "m.mtl", problems);
+    ASSERT_EQ(problems.all().size(), 1u);
+    EXPECT_EQ(problems.all()[0].message, "macro 'A' is a text of several lines");
+}
+
 TEST(CocosMtl, TexturesAreTheCallersBusiness) {
     std::string asked;
     const auto textures = [&](const AssetRef& texture, const EffectProperty& feeds) {
@@ -196,6 +211,14 @@ TEST(CocosMtl, StatesThatSayNothingAreLeftOut) {
     EXPECT_EQ(made.passes[0].states.toJson(-1), "{}");
     EXPECT_EQ(made.passes[1].states.toJson(-1),
               R"({"rasterizerState":{"cullMode":0},"blendState":{"targets":[{},{"blend":true}]},"priority":200})");
+}
+
+TEST(CocosMtl, ATechniqueThatTheEffectLacksIsAnErrorWhereItIsNamed) {
+    Problems problems;
+    const Mtl mtl = parseMtl("{ \"__type__\": \"cc.Material\",\n  \"_techIdx\": 3 }", "m.mtl", problems);
+    instantiate(mtl, effect(), "e", {}, problems);
+    ASSERT_EQ(problems.all().size(), 1u);
+    EXPECT_EQ(problems.all()[0].where.line, 2);
 }
 
 TEST(CocosMtl, ATechniqueThatTheEffectLacksIsAnError) {

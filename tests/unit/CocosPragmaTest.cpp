@@ -251,6 +251,25 @@ TEST(CocosPragma, EveryMacroGetsAValueAndTheTextsOwnGetNone) {
     EXPECT_THAT(odd, Contains("#define FLAG 7"));
 }
 
+TEST(CocosPragma, EngineConstantsAreThoseOfADesktop) {
+    CocosBench bench;
+    bench.fragment(
+        "layout(location = 0) out vec4 color;\n#if CC_DEVICE_CAN_BENEFIT_FROM_INPUT_ATTACHMENT\n"
+        "void main() { color = subpassLoad(nobodyDeclaresIt); }\n#else\nvoid main() { color = vec4(1.0); }\n#endif\n");
+    bench.compile();  // the branch for tilers is not taken, whatever it holds
+    const StageText text = bench.fragmentText();
+    EXPECT_TRUE(text.macros.empty());  // no macro of the material's
+    const auto head = words(makeHead(text, text.macros, {}));
+    for (const char* line :
+         {"#define CC_DEVICE_CAN_BENEFIT_FROM_INPUT_ATTACHMENT 0", "#define CC_ENABLE_CLUSTERED_LIGHT_CULLING 0",
+          "#define CC_DEVICE_SUPPORT_FLOAT_TEXTURE 1", "#define CC_PLATFORM_ANDROID_AND_WEBGL 0",
+          "#define CC_ENABLE_WEBGL_HIGHP_STRUCT_VALUES 0", "#define CC_USE_WGPU 0"})
+        EXPECT_THAT(head, Contains(line));
+    EXPECT_THAT(makeHead(text, {}, {}), HasSubstr("#define CC_DEVICE_MAX_VERTEX_UNIFORM_VECTORS "));
+    EXPECT_THAT(makeHead(text, {}, {}), HasSubstr("#define CC_JOINT_UNIFORM_CAPACITY "));
+    EXPECT_THAT(head.front(), "#version 450");
+}
+
 TEST(CocosPragma, DefaultFunctionsStandWhereNobodyDefinesTheirOwn) {
     CocosBench bench;
     bench.chunk("defaults", "#ifndef SURFACES_MODIFY\nfloat modify() { return 1.0; }\n#endif\n");

@@ -146,7 +146,7 @@ TEST(CocosRpp, ReferencesThatLeadNowhereAreErrorsAtTheirPlace) {
         "_flows": [ { "__id__": 7 }, { "__id__": -1 }, { "__id__": "a" }, 5, { "__id__": 1.5 } ] } ])");
     EXPECT_TRUE(contains(text, "x.rpp:2:33: error: item 0 of '_flows' is object 7, but this file has 1")) << text;
     EXPECT_TRUE(contains(text, "item 1 of '_flows' is object -1"));
-    EXPECT_TRUE(contains(text, "item 2 of '_flows' is object \"a\""));
+    EXPECT_TRUE(contains(text, "item 2 of '_flows' is object 'a'"));
     EXPECT_TRUE(contains(text, "item 3 of '_flows' must be an object, not a number"));
     EXPECT_TRUE(contains(text, "item 4 of '_flows' is object 1.5"));
 }

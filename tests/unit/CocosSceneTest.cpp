@@ -239,6 +239,16 @@ TEST(CocosScene, WrongFilesAreErrors) {
         contains(folder.errors(deep + R"(, { "__type__": "cc.Node" } ])"), "nodes nested deeper than 256 levels"));
 }
 
+TEST(CocosScene, WhatTwoWalksSeeIsSaidOnce) {
+    SceneFolder folder;
+    const std::string text = folder.errors(withComponent(R"({ "__type__": "cc.Camera" })", R"(, "_lpos": 5)"));
+    const auto first = text.find("'_lpos' must be a vector or a colour");
+    ASSERT_NE(first, std::string::npos) << text;
+    EXPECT_EQ(text.find("'_lpos' must be", first + 1), std::string::npos) << text;
+    EXPECT_TRUE(contains(folder.errors(R"([ { "__type__": "cc.SceneAsset" } ])"),
+                         "'scene' of this 'cc.SceneAsset' is missing"));
+}
+
 TEST(CocosScene, TwoOfEachChildIsBounded) {
     SceneFolder folder;
     std::string wide = R"([ { "__type__": "cc.SceneAsset", "scene": { "__id__": 1 } })";
