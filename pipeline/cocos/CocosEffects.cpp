@@ -166,7 +166,7 @@ std::vector<StageSource> CocosEffects::stages(const EffectAsset& effect, const E
     std::vector<StageInterface> interfaces;
     for (const auto& stage : kept) {
         if (!stage->interface) stage->interface = readInterface(stage->text, stage->said);
-        if (!stage->said.all().empty()) problems.add(Error(stage->said.all()));
+        takeOver(stage->said, problems);
         interfaces.push_back(*stage->interface);
         texts.push_back(stage->text);
     }

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include <fmt/format.h>
+
 namespace crevice::cocos {
 namespace {
 
@@ -12,6 +14,20 @@ bool isOperator(char c) { return std::string_view("+-*/%&|^<>=!?~").find(c) != s
 
 constexpr double kHeavy = 100;  ///< Words: lighter macros cannot add up before the text itself is too large.
 constexpr int kMaxDepth = 100;  ///< Nesting of calls, and of macros in macros.
+
+/// A word in a line of the text (counted from 1), or the line without its indentation.
+SourceLoc placeInLine(const FlatSource& flat, int line, std::string_view word) {
+    std::string_view text = flat.text;
+    for (int i = 1; i < line; ++i) text.remove_prefix(std::min(text.find('\n'), text.size() - 1) + 1);
+    text = text.substr(0, text.find('\n'));
+    auto at = word.empty() ? std::string_view::npos : text.find(word);
+    std::size_t length = word.size();
+    if (at == std::string_view::npos) {
+        at = std::min(text.find_first_not_of(" \t"), text.size());
+        length = std::clamp<std::size_t>(text.size() - at, 1, 200);
+    }
+    return flat.locate(line, static_cast<int>(at) + 1, static_cast<int>(length));
+}
 
 }  // namespace
 
@@ -192,6 +208,17 @@ int MacroWeights::firstTooHeavy(std::string_view text, std::string_view& macro) 
         if (total > kMaxWords || statement > kMaxStatement) return lineOf(begin);
     }
     return 0;
+}
+
+void MacroWeights::check(const FlatSource& flat, Problems& problems) {
+    std::string_view heaviest;
+    const int line = firstTooHeavy(flat.text, heaviest);
+    if (line == 0) return;
+    const SourceLoc where = placeInLine(flat, line, heaviest);
+    if (heaviest.empty())
+        return problems.error(where, "this statement is longer than the compiler can take", "split it, or use a loop");
+    problems.error(where, fmt::format("macro '{}' stands for more than {} words here", heaviest, kMaxWords),
+                   "macros multiply each other: write out what is meant");
 }
 
 }  // namespace crevice::cocos

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "cocos/SourceText.h"
+#include "effect/Includes.h"
 
 namespace crevice::cocos {
 
@@ -27,6 +28,8 @@ public:
     /// The line of `text`, counted from 1, on which a limit is passed; 0 = nowhere. `macro` is empty when it is that of
     /// a statement.
     int firstTooHeavy(std::string_view text, std::string_view& macro);
+    /// The same as an error in the author's file.
+    void check(const FlatSource& flat, Problems& problems);
 
 private:
     struct Linear {

@@ -91,20 +91,6 @@ private:
                 static_cast<int>(std::max<std::size_t>(1, text.size() - begin))};
     }
 
-    /// A word in a line of the text (counted from 1), or the line without its indentation.
-    SourceLoc placeInLine(int line, std::string_view word) const {
-        std::string_view text = out_.flat.text;
-        for (int i = 1; i < line; ++i) text.remove_prefix(std::min(text.find('\n'), text.size() - 1) + 1);
-        text = text.substr(0, text.find('\n'));
-        auto at = word.empty() ? std::string_view::npos : text.find(word);
-        std::size_t length = word.size();
-        if (at == std::string_view::npos) {
-            at = std::min(text.find_first_not_of(" \t"), text.size());
-            length = std::clamp<std::size_t>(text.size() - at, 1, 200);
-        }
-        return out_.flat.locate(line, static_cast<int>(at) + 1, static_cast<int>(length));
-    }
-
     std::string_view textOf(const FlatDirective& directive) const {
         return std::string_view(out_.flat.text).substr(directive.offset, directive.length);
     }
@@ -302,16 +288,7 @@ private:
         for (const auto& [name, macros] : definitions_)
             for (const MacroDefinition* macro : macros)
                 if (!macro->bearsDirectives) weights.add(*macro);
-        std::string_view heaviest;
-        const int line = weights.firstTooHeavy(out_.flat.text, heaviest);
-        if (line == 0) return;
-        const SourceLoc where = placeInLine(line, heaviest);
-        if (heaviest.empty())
-            return problems_.error(where, "this statement is longer than the compiler can take",
-                                   "split it, or use a loop");
-        problems_.error(where,
-                        fmt::format("macro '{}' stands for more than {} words here", heaviest, MacroWeights::kMaxWords),
-                        "macros multiply each other: write out what is meant");
+        weights.check(out_.flat, problems_);
     }
 
     /// Position does not matter for `#pragma define`: its macros go in front of everything.
