@@ -27,7 +27,8 @@ TEST(CocosImport, TheShapeOf331BecomesThreeStages) {
       { "__type__": "PostprocessStage", "_name": "PostprocessStage", "_priority": 0, "_tag": 0, "_postProcessMaterial": null, "renderQueues": [] } ])")
                                        .text);
     EXPECT_EQ(desc.profile, Profile::Cocos33);
-    EXPECT_EQ(stagesOf(desc), "GbufferFlow: GbufferStage; LightingFlow: LightingStage PostprocessStage; ");
+    EXPECT_EQ(stagesOf(desc),
+              "ShadowFlow: ShadowStage; GbufferFlow: GbufferStage; LightingFlow: LightingStage PostprocessStage; ");
     EXPECT_EQ(stage(desc, "GbufferStage").queues.at(0).phases, std::vector<std::string>{"deferred"});
     EXPECT_EQ(stage(desc, "LightingStage").queues.at(0).phases, (std::vector<std::string>{"default", "deferred"}));
     EXPECT_EQ(stage(desc, "PostprocessStage").stageClass, "PostProcessStage");
@@ -46,7 +47,7 @@ TEST(CocosImport, TheShapeOfForwardPipelinesKeepsItsPhases) {
       { "__type__": "RenderQueueDesc", "isTransparent": false, "sortMode": 0, "stages": [ "default" ] },
       { "__type__": "RenderQueueDesc", "isTransparent": true, "sortMode": 1, "stages": [ "default", "planarShadow" ] } ])")
                                        .text);
-    EXPECT_EQ(stagesOf(desc), "ForwardFlow: ForwardStage TransparentStage; ");
+    EXPECT_EQ(stagesOf(desc), "ShadowFlow: SpotShadowStage ShadowStage; ForwardFlow: ForwardStage TransparentStage; ");
     EXPECT_EQ(stage(desc, "TransparentStage").queues.at(0).phases,
               (std::vector<std::string>{"default", "planarShadow"}));
     EXPECT_FALSE(contains(project.notes, "frameBuffer")) << project.notes;
@@ -72,7 +73,7 @@ TEST(CocosImport, APipelineThatDrawsNothingIsAnError) {
     ProjectFolder project;
     const std::string text = errorOf([&] {
         project.import(
-            R"({ "__type__": "DeferredPipeline", "_flows": [ { "__type__": "F", "_stages": [ { "__type__": "ShadowStage" } ] } ] })");
+            R"({ "__type__": "DeferredPipeline", "_flows": [ { "__type__": "F", "_stages": [ { "__type__": "BloomStage" } ] } ] })");
     });
     EXPECT_TRUE(contains(text, "no stage of pipeline 'mine' is drawn")) << text;
 }
