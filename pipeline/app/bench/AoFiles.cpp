@@ -87,7 +87,13 @@ Json splitsJson(const AoResults& results) {
                           {"total", split.total},
                           {"estimator", split.estimator},
                           {"missing", split.missing},
-                          {"white", split.white}});
+                          {"white", split.white},
+                          {"correlation", split.map.correlation},
+                          {"skill", split.map.skill},
+                          {"bias", split.map.bias},
+                          {"floor_correlation", split.floor.correlation},
+                          {"floor_skill", split.floor.skill},
+                          {"floor_bias", split.floor.bias}});
     }
     return splits;
 }

@@ -53,6 +53,7 @@ struct AoSplit {
     double share = 0;
     double total = 0, estimator = 0, missing = 0;  ///< RMSE of each.
     double white = 0;                              ///< Of a white map.
+    MapMetrics map, floor;                         ///< Of the map and of the heightfield, against the truth.
 };
 
 struct AoCurvePoint {

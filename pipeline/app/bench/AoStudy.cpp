@@ -98,8 +98,11 @@ void AoStudy::addScene(AoRenderer& renderer, const AoScene& scene, double share,
                 if (factor != 1) continue;
                 if (!forCalibration) addMatched(technique, v.truth, map);
                 splits.push_back({scene.name, scene.kind, v.view->name, v.view->set, c.technique, c.quality, c.extras,
-                                  share, rms(map, truth, v.truth.isCounted), rms(map, v.heightfield, v.truth.isCounted),
-                                  rms(v.heightfield, truth, v.truth.isCounted), std::sqrt(sums.whiteError())});
+                                  share, 0, rms(map, v.heightfield, v.truth.isCounted), 0, std::sqrt(sums.whiteError()),
+                                  measureMap(map, truth, v.truth.isCounted),
+                                  measureMap(v.heightfield, truth, v.truth.isCounted)});
+                splits.back().total = splits.back().map.rmse;
+                splits.back().missing = splits.back().floor.rmse;
             }
             progress_(static_cast<double>(views.size()));
         }
