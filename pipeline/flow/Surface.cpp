@@ -3,6 +3,7 @@
 #include "flow/Surface.h"
 
 #include <iterator>
+#include <string>
 
 namespace crevice {
 namespace {
@@ -59,7 +60,7 @@ SurfaceInputs surfaceInputs(const SceneMaterial& material, bool meshHasTangents)
         const TextureRef& ref = material.*row.ref;
         inputs.defines[row.useMacro] = ref ? "1" : "0";
         if (!ref) continue;
-        inputs.defines[row.uvMacro] = ref.texcoord == 1 ? "1" : "0";
+        inputs.defines[row.uvMacro] = std::to_string(ref.texcoord);
         inputs.textures.emplace_back(row.sampler, ref);
         if (ref.transform.isIdentity()) continue;
         transformed = true;

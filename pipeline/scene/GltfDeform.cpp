@@ -65,8 +65,8 @@ void morph(const File& file, int mesh, const PrimitivePart& primitive, std::span
         add("NORMAL", attributes.normal);
         add("TANGENT", attributes.tangent);
         add("COLOR_0", attributes.color);
-        add(fmt::format("TEXCOORD_{}", sets[0]), attributes.uv0);
-        if (sets.size() > 1) add(fmt::format("TEXCOORD_{}", sets[1]), attributes.uv1);
+        for (std::size_t set = 0; set < sets.size(); ++set)
+            add(fmt::format("TEXCOORD_{}", sets[set]), attributes.uv[set]);
     }
 }
 
@@ -86,6 +86,7 @@ void bend(const File& file, int mesh, const Attributes& from, std::span<const gl
                                  glm::cross(turn[0], turn[1]));
         const float sign = glm::determinant(turn) < 0 ? -1.0f : 1.0f;
         vertex.normal = unitOr(sign * (cofactor * vertex.normal), vertex.normal);
+        if (from.tangent.components == 0) continue;
         const glm::vec3 tangent(vertex.tangent);
         vertex.tangent = glm::vec4(unitOr(turn * tangent, tangent), sign * vertex.tangent.w);
     }

@@ -10,7 +10,7 @@ namespace crevice::gltf {
 
 namespace {
 
-/// Reads one material. Texture coordinates are numbered by stream: the first two sets that its textures read.
+/// Reads one material. Texture coordinates are numbered by stream: the first four sets that its textures read.
 class Reader {
 public:
     Reader(const File& file, Images& images, std::size_t index)
@@ -38,6 +38,8 @@ public:
     const std::vector<int>& sets() const { return sets_; }
 
 private:
+    static constexpr std::size_t kMostSets = 4;
+
     static int setOf(const Value& info) {
         const Value* transform = extensionOf(info, "KHR_texture_transform");
         return transform ? intOr(*transform, "texCoord", intOr(info, "texCoord", 0)) : intOr(info, "texCoord", 0);
@@ -58,11 +60,11 @@ private:
         std::sort(sets_.begin(), sets_.end());
         sets_.erase(std::unique(sets_.begin(), sets_.end()), sets_.end());
         if (sets_.empty() || sets_.back() <= 1) sets_ = {0, 1};
-        if (sets_.size() > 2) {
+        if (sets_.size() > kMostSets) {
             file_.warn("materials", index_,
-                       fmt::format("it reads {} sets of texture coordinates; only {} and {} are kept apart",
-                                   sets_.size(), sets_[0], sets_[1]));
-            sets_.resize(2);
+                       fmt::format("it reads {} sets of texture coordinates; the last ones are taken from set {}",
+                                   sets_.size(), sets_[0]));
+            sets_.resize(kMostSets);
         }
     }
 
@@ -71,7 +73,8 @@ private:
         if (!info) return {};
         TextureRef ref{.texture =
                            images_.use(intOr(*info, "index"), srgb, fmt::format("materials[{}].{}", index_, key))};
-        ref.texcoord = sets_.size() > 1 && setOf(*info) == sets_[1] ? 1 : 0;
+        const auto set = std::find(sets_.begin(), sets_.end(), setOf(*info));
+        ref.texcoord = set == sets_.end() ? 0 : int(set - sets_.begin());
         if (const Value* transform = extensionOf(*info, "KHR_texture_transform")) {
             const auto pair = [&](const char* name, glm::vec2& to) {
                 if (const auto v = floatsIn(*transform, name); v.size() == 2) to = {v[0], v[1]};

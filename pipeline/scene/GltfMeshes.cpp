@@ -61,10 +61,11 @@ Attributes readAttributes(const File& file, int mesh, const PrimitivePart& primi
     to.position = readAttribute(file, mesh, primitive, "POSITION", 0);
     const std::size_t count = to.position.count;
     to.normal = readAttribute(file, mesh, primitive, "NORMAL", count);
-    // Without normals tangents do not count: glTF 2.0 specification, 3.7.2.1.
-    if (to.normal.components) to.tangent = readAttribute(file, mesh, primitive, "TANGENT", count);
-    to.uv0 = readAttribute(file, mesh, primitive, fmt::format("TEXCOORD_{}", sets[0]), count);
-    if (sets.size() > 1) to.uv1 = readAttribute(file, mesh, primitive, fmt::format("TEXCOORD_{}", sets[1]), count);
+    // Without normals tangents do not count: glTF 2.0 specification, 3.7.2.1. More than two sets of texture coordinates
+    // take their place: the frame then follows from derivatives.
+    if (to.normal.components && sets.size() <= 2) to.tangent = readAttribute(file, mesh, primitive, "TANGENT", count);
+    for (std::size_t set = 0; set < sets.size(); ++set)
+        to.uv[set] = readAttribute(file, mesh, primitive, fmt::format("TEXCOORD_{}", sets[set]), count);
     to.color = readAttribute(file, mesh, primitive, "COLOR_0", count);
     if (skinned) readJoints(file, mesh, primitive, count, to);
     return to;
@@ -106,8 +107,10 @@ Vertex makeVertex(const Attributes& from, std::size_t i) {
         const glm::vec4 tangent = from.tangent.at<4>(i);
         vertex.tangent = glm::vec4(unitOr(glm::vec3(tangent), {1, 0, 0}), tangent.w < 0 ? -1.0f : 1.0f);
     }
-    if (from.uv0.components) vertex.uv0 = from.uv0.at<2>(i);
-    if (from.uv1.components) vertex.uv1 = from.uv1.at<2>(i);
+    const auto uv = [&](int set) { return from.uv[set].components ? from.uv[set].at<2>(i) : glm::vec2(0); };
+    vertex.uv0 = uv(0);
+    vertex.uv1 = uv(1);
+    if (from.uv[2].components || from.uv[3].components) vertex.tangent = glm::vec4(uv(2), uv(3));
     if (from.color.components == 3) vertex.color = glm::vec4(from.color.at<3>(i), 1);
     if (from.color.components == 4) vertex.color = from.color.at<4>(i);
     return vertex;

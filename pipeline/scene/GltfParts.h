@@ -176,7 +176,7 @@ struct SpecularGlossiness {
 
 struct Materials {
     std::vector<SceneMaterial> scene;
-    /// Of each glTF material: the sets of texture coordinates that its textures read, at most two, in stream order.
+    /// Of each glTF material: the sets of texture coordinates that its textures read, at most four, in stream order.
     std::vector<std::vector<int>> texcoords;
     std::vector<SpecularGlossiness> toConvert;
 };
@@ -215,11 +215,11 @@ struct Deformation {
 
 /// A primitive's attributes, read and morphed; vertices are made of them.
 struct Attributes {
-    FloatStream position, normal, tangent, uv0, uv1, color;
+    FloatStream position, normal, tangent, uv[4], color;
     std::vector<std::vector<std::uint32_t>> joints;
     std::vector<FloatStream> weights;
 };
-/// Adds the primitive's morph targets. `sets`: the texture coordinates in uv0 and uv1.
+/// Adds the primitive's morph targets. `sets`: the texture coordinates in uv.
 void morph(const File& file, int mesh, const PrimitivePart& primitive, std::span<const float> weights,
            std::span<const int> sets, Attributes& attributes);
 /// Linear blend skinning, glTF 2.0 specification, 3.7.3.3.

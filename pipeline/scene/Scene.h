@@ -30,7 +30,7 @@ struct Aabb {
 struct Vertex {
     glm::vec3 position{0};
     glm::vec3 normal{0, 0, 1};
-    glm::vec4 tangent{1, 0, 0, 1};  ///< w = handedness of the bitangent
+    glm::vec4 tangent{1, 0, 0, 1};  ///< w = handedness of the bitangent; or sets 2 and 3 of coordinates: TextureRef
     glm::vec2 uv0{0};
     glm::vec2 uv1{0};
     glm::vec4 color{1};
@@ -78,7 +78,7 @@ struct UvTransform {
 
 struct TextureRef {
     int texture = -1;  ///< Index into Scene::textures, -1 = none.
-    int texcoord = 0;  ///< 0 or 1
+    int texcoord = 0;  ///< 0 or 1; 2 and 3: xy and zw of the tangent, which then is none
     UvTransform transform{};
     explicit operator bool() const { return texture >= 0; }
 };

@@ -47,7 +47,7 @@ bool passesAlphaTest(const Scene& scene, const Mesh& mesh, const SceneMaterial& 
     for (int i = 0; i < 3; ++i) {
         const Vertex& vertex = mesh.vertices[index[i]];
         alpha += weight[i] * vertex.color.a;
-        uv += weight[i] * (material.baseColorMap.texcoord == 1 ? vertex.uv1 : vertex.uv0);
+        uv += weight[i] * texcoordOf(vertex, material.baseColorMap.texcoord);
     }
     alpha *= material.baseColor.a;
     if (material.baseColorMap)

@@ -5,6 +5,14 @@
 
 namespace crevice {
 
+/// Texture coordinates as the standard effect reads them: see TextureRef::texcoord.
+inline glm::vec2 texcoordOf(const Vertex& vertex, int set) {
+    return set == 0   ? vertex.uv0
+           : set == 1 ? vertex.uv1
+           : set == 2 ? glm::vec2(vertex.tangent)
+                      : glm::vec2(vertex.tangent.z, vertex.tangent.w);
+}
+
 /// Bilinear, on the largest mip level, with the sampler's wrapping.
 float sampleAlpha(const SceneTexture& texture, const glm::vec2& uv);
 

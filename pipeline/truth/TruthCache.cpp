@@ -6,6 +6,7 @@
 
 #include "core/CacheFile.h"
 #include "core/Files.h"
+#include "truth/AlphaTest.h"
 
 namespace crevice {
 namespace {
@@ -50,7 +51,7 @@ void addMesh(KeyText& key, const Mesh& mesh, const SceneMaterial& material) {
         for (int i = 0; i < 3; ++i) values.push_back(vertex.position[i]);
         for (int i = 0; i < 3; ++i) values.push_back(vertex.normal[i]);
         if (!masked) continue;
-        const glm::vec2 uv = material.baseColorMap.texcoord == 1 ? vertex.uv1 : vertex.uv0;
+        const glm::vec2 uv = texcoordOf(vertex, material.baseColorMap.texcoord);
         values.insert(values.end(), {uv.x, uv.y, vertex.color.a});
     }
     key.addHash(std::span<const float>(values));

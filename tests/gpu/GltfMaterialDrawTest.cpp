@@ -176,6 +176,36 @@ TEST_F(GltfMaterialDraw, TransformsTurnCounterClockwiseAndNameTheirSet) {
     expectSeen(middle({0.25f, 0}, ", \"texCoord\": 1", {0.75f, 0}), 0, 0, kRed);
 }
 
+// Four textures that read four sets; what is given off is read from one of them, the only one that points to white.
+TEST_F(GltfMaterialDraw, FourSetsOfCoordinatesAreKeptApart) {
+    constexpr int kNumbers[] = {0, 2, 3, 7};
+    for (const char* pipeline : {"deferred", "forward"})
+        for (int wanted = 0; wanted < 4; ++wanted) {
+            ModelText model;
+            std::string attributes = "\"POSITION\": " + std::to_string(model.rectangle(glm::vec2(-1), glm::vec2(1)));
+            std::string material;
+            const char* readers[] = {"normalTexture", "occlusionTexture"};
+            const int texture = model.texture(whiteAndRed(), kNearest);
+            for (int set = 0, other = 0; set < 4; ++set) {
+                const float u = set == wanted ? 0.25f : 0.75f;
+                const std::string number = std::to_string(kNumbers[set]);
+                attributes += ", \"TEXCOORD_" + number + "\": " +
+                              std::to_string(model.accessor("VEC2", std::vector<float>{u, 0, u, 0, u, 0, u, 0}));
+                const std::string info = ": {\"index\": " + std::to_string(texture) + ", \"texCoord\": " + number + "}";
+                if (set == wanted)
+                    material += ", \"emissiveTexture\"" + info;
+                else if (other < 2)
+                    material += std::string(", \"") + readers[other++] + "\"" + info;
+                else
+                    material += ", \"pbrMetallicRoughness\": {\"baseColorTexture\"" + info + "}";
+            }
+            model.add("materials", "{\"emissiveFactor\": [1, 1, 1]" + material + "}");
+            model.mesh(ModelText::primitive(attributes, model.rectangleIndices(), 0));
+            model.root("\"mesh\": 0");
+            expectSeen(pictureOf(sceneOf(model), pipeline), 0, 0, kWhite, pipeline + std::to_string(wanted));
+        }
+}
+
 TEST_F(GltfMaterialDraw, EmissiveStrengthIsRadiance) {
     ModelText model;
     const int material = model.add("materials", R"({"emissiveFactor": [0.5, 0.25, 0],

@@ -61,5 +61,22 @@ TEST(GltfVersions, GlossinessGoesBeforeAMakeshift) {
               0.25f);
 }
 
+// Four sets of texture coordinates reach the shaders; a fifth is told.
+TEST(GltfVersions, AFifthSetOfCoordinatesIsAWarning) {
+    Document document;
+    const auto info = [](int set) { return R"({"index": 0, "texCoord": )" + std::to_string(set) + "}"; };
+    document.rest = R"(, "materials": [{"pbrMetallicRoughness": {"baseColorTexture": )" + info(0) +
+                    R"(, "metallicRoughnessTexture": )" + info(1) + R"(}, "normalTexture": )" + info(2) +
+                    R"(, "occlusionTexture": )" + info(3) + R"(, "emissiveTexture": )" + info(4) +
+                    R"(}], "textures": [{"source": 0}], "images": [{"uri": "data:image/png;base64,)" +
+                    std::string(test::kPng) + R"("}])";
+    document.primitive = R"(, "indices": 1, "material": 0)";
+    test::Listener listener;
+    const SceneMaterial material = document.load(&listener).materials.at(0);
+    EXPECT_EQ(material.occlusionMap.texcoord, 3);
+    EXPECT_EQ(material.emissiveMap.texcoord, 0);
+    EXPECT_TRUE(contains(listener.text, "it reads 5 sets of texture coordinates")) << listener.text;
+}
+
 }  // namespace
 }  // namespace crevice
