@@ -81,6 +81,7 @@ private:
                 push(line.text, lines.origin(at));
                 return at + 1;
             }
+            if (const std::size_t next = emitChoice(lines, at); next != at) return next;
             Pending pending;
             const std::size_t used = expandLine(lines, at, pending);
             flush(pending);
@@ -104,6 +105,42 @@ private:
         return next;
     }
 
+    /// A call of a macro whose definition a condition chooses is written once for each definition so far.
+    std::size_t emitChoice(const SourceLines& lines, std::size_t at) {
+        std::string_view name;
+        int open = 0;
+        for (std::size_t i = at; i < lines.source.lines.size() && name.empty() && (i == at || open > 0); ++i) {
+            name = table_->findChoice(lines.text(i), chosen_);
+            for (const char c : lines.text(i)) open += c == '(' ? 1 : c == ')' ? -1 : 0;
+        }
+        if (name.empty() || chosen_.size() >= MacroTable::kMaxChoices) return at;
+        const std::vector<const MacroDefinition*> choices = choices_[name];
+        chosen_.push_back(name);
+        std::size_t next = at;
+        for (std::size_t i = 0; i < choices.size() && !stopped_; ++i) {
+            const bool only = choices.size() == 1;
+            latest_[name] = choices[i];
+            if (!only)
+                emitDirective(fmt::format("#{} {} == {}", i == 0 ? "if" : "elif", choiceOf(name), i + 1),
+                              lines.origin(at), lines.source);
+            next = emitLine(lines, at);
+        }
+        if (choices.size() > 1) emitDirective("#endif", lines.origin(at), lines.source);
+        if (choices.empty()) next = emitLine(lines, at);
+        chosen_.pop_back();
+        return next;
+    }
+
+    /// The macro that says which definition holds, 1 for the first.
+    static std::string choiceOf(std::string_view name) { return fmt::format("crevice_choice_{}", name); }
+
+    void noteChoice(const MacroDefinition& macro, Origin origin) {
+        auto& choices = choices_[macro.name];
+        choices.push_back(&macro);
+        emitDirective(fmt::format("#undef {}", choiceOf(macro.name)), origin, *macro.source);
+        emitDirective(fmt::format("#define {} {}", choiceOf(macro.name), choices.size()), origin, *macro.source);
+    }
+
     /// A preprocessor line in one piece: of a text, or of a macro's body.
     void emitDirective(std::string_view text, Origin origin, const SourceText& source) {
         const Directive directive = readDirective(text);
@@ -122,9 +159,10 @@ private:
     void emitDefinition(const SourceLines& lines, std::size_t at, const MacroDefinition& macro) {
         const SourceLine& line = lines.source.lines[at];
         const Origin origin = lines.origin(at);
-        FlatDirective note{line.kind, lineCount(), out_.flat.text.size(), 0, &macro, nullptr, origin};
         const bool expanded = table_->isExpanded(macro.name);
         if (expanded && !macro.dead) latest_[macro.name] = &macro;
+        if (!macro.dead && table_->isChosen(macro.name)) noteChoice(macro, origin);
+        const FlatDirective note{line.kind, lineCount(), out_.flat.text.size(), 0, &macro, nullptr, origin};
         out_.directives.push_back(note);
         if (macro.fromPragma) return;  // Hoisted by the analysis.
         if (expanded) return push(fmt::format("#define {0} {0}", macro.name), origin);
@@ -333,6 +371,8 @@ private:
     Flattened out_;
     std::unordered_map<std::string, std::uint32_t> fileIndices_;
     std::unordered_map<std::string_view, const MacroDefinition*> latest_;  ///< As the text has defined them so far.
+    std::unordered_map<std::string_view, std::vector<const MacroDefinition*>> choices_;  ///< Likewise, where several.
+    std::vector<std::string_view> chosen_;  ///< Whose latest_ the present line has chosen.
     std::unordered_set<const SourceText*> seen_;
     std::vector<const SourceText*> stack_;
     std::vector<std::string_view> active_;  ///< Macros being expanded: they are not expanded within themselves.

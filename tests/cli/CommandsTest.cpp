@@ -148,7 +148,7 @@ TEST_F(CommandsTest, EffectsCompileReadsCocosFolders) {
           "CCProgram fs %{\n  uniform sampler2D map;\n  #if USE_OTHER\n    in vec4 v_missing;\n  #endif\n  vec4 frag "
           "() {\n  #if USE_PLACE\n    return v_missing;\n"
           "  #endif\n    return texture(map, vec2(0.5)); }\n}%\n");
-    const Outcome good = run("effects compile engine/editor/assets/effects --engine engine --define UNKNOWN=1");
+    const Outcome good = run("effects compile --engine engine --define UNKNOWN=1");
     EXPECT_EQ(good.code, 0) << good.err;
     EXPECT_TRUE(has(good.out, "1 compiled, 0 failed; 1 effect\n")) << good.out;
     const Outcome bad = run("effects compile engine/editor/assets/effects --engine engine --define USE_PLACE=1");

@@ -42,7 +42,7 @@ TEST_P(CocosConformance, EveryPassCompiles) {
             }
         }
     }
-    EXPECT_EQ(count, 12u);  // standard 5, surface 3, old, billboard, cluster, tiled 1 each.
+    EXPECT_EQ(count, 14u);  // standard 5, surface 3, ripple 2, old, billboard, cluster, tiled 1 each.
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -61,7 +61,9 @@ INSTANTIATE_TEST_SUITE_P(
                             {"ALBEDO_UV", "v_uv.yx"},
                             {"OLD_KIND", "1"},
                             {"OLD_FLAG", "1"},
-                            {"OLD_CHANNEL", "g"}}));
+                            {"OLD_CHANNEL", "g"}},
+                    Defines{{"RIPPLE_KIND", "1"}}, Defines{{"RIPPLE_KIND", "2"}},
+                    Defines{{"RIPPLE_KIND", "2"}, {"RIPPLE_BOTH_WAYS", "1"}}));
 
 using CocosConformanceFacts = CocosConformance;
 
@@ -86,6 +88,27 @@ TEST_F(CocosConformanceFacts, MacrosOfTheStandardPassInOrder) {
     EXPECT_TRUE(outline.embeddedMacros.empty());  // The pass' own key replaces the merged one.
     EXPECT_EQ(outline.phase, "forward-add");
     EXPECT_FALSE(outline.state.depthWrite);
+}
+
+TEST_F(CocosConformanceFacts, ComparedMacrosAndCountedRegistersOfTheRipple) {
+    CocosEffects effects(roots());
+    Problems problems;
+    const EffectAsset asset = effects.parse(*effects.find("advanced/ripple"), "advanced/ripple", problems);
+    const EffectPass& pass = asset.techniques[0].passes[0];
+    EXPECT_EQ(pass.priority, 252);
+    // By hand: a comparison makes a number from 0 to 3 of the first, a plain condition a bool of the second.
+    const std::vector<DefineInfo> infos = effects.defines(asset, pass, problems);
+    ASSERT_EQ(infos.size(), 2u);
+    EXPECT_EQ(infos[0].name, "RIPPLE_KIND");
+    EXPECT_EQ(infos[0].type, DefineType::Number);
+    EXPECT_EQ(infos[0].range, std::pair(0, 3));
+    EXPECT_EQ(infos[1].name, "RIPPLE_BOTH_WAYS");
+    EXPECT_EQ(infos[1].type, DefineType::Bool);
+    // One vec4 and an array of two: three registers.
+    const std::vector<StageSource> stages = effects.stages(asset, pass, VariantRequest{}, {}, problems);
+    ASSERT_EQ(stages.size(), 2u);
+    EXPECT_NE(stages[1].head.find("#define CC_EFFECT_USED_FRAGMENT_UNIFORM_VECTORS 3\n"), std::string::npos);
+    problems.throwIfErrors();
 }
 
 }  // namespace

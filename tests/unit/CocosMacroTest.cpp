@@ -51,6 +51,47 @@ TEST(CocosMacro, DifferentDefinitionsKeepTheirConditions) {
     bench.compile({{"USE_X", "1"}});
 }
 
+/// The attributes that a variant has, without those that a program always has.
+std::vector<std::string> inputsOf(const CocosBench& bench, const Defines& defines) {
+    std::vector<std::string> inputs;
+    for (const ShaderVariable& input : bench.compile(defines).info.inputs)
+        inputs.push_back(input.name + " " + input.type);
+    return inputs;
+}
+
+TEST(CocosMacro, DefinitionsThatAConditionChoosesAreAllWritten) {
+    CocosBench bench;
+    bench.effect(
+        "#if USE_WIDE\n#define TAKE(name) in vec4 name;\n#define ADD(name) at += name;\n"
+        "#elif USE_NONE\n#define TAKE(name)\n#define ADD(name)\n"
+        "#else\n#define TAKE(name) in vec2 name;\n#define ADD(name) \\\n#if USE_Z \\\nat.z += name.x; \\\n#else \\\n"
+        "at.xy += name; \\\n#endif\n#endif\n"
+        "#define TAKE_BOTH TAKE(a_one) TAKE(a_two)\nTAKE_BOTH\n"
+        "void main() { vec4 at = vec4(0.0); ADD(\n a_one)\n ADD(a_two)\n gl_Position = at; }\n",
+        "layout(location = 0) out vec4 color;\nvoid main() { color = vec4(1.0); }\n");
+    EXPECT_THAT(inputsOf(bench, {}), ElementsAre("a_one vec2", "a_two vec2"));
+    EXPECT_THAT(inputsOf(bench, {{"USE_Z", "1"}}), ElementsAre("a_one vec2", "a_two vec2"));
+    EXPECT_THAT(inputsOf(bench, {{"USE_WIDE", "1"}}), ElementsAre("a_one vec4", "a_two vec4"));
+    EXPECT_THAT(inputsOf(bench, {{"USE_NONE", "1"}}), ElementsAre());
+}
+
+TEST(CocosMacro, OneLineMayCallSeveralChosenMacros) {
+    CocosBench bench;
+    const auto chosen = [](const std::string& name) {
+        return "#if USE_" + name + "\n#define " + name + "(x) \\\n#if 1 \\\nx += 1.0; \\\n#endif\n#else\n#define " +
+               name + "(x) x -= 1.0;\n#endif\n";
+    };
+    std::string calls, definitions;
+    for (char letter = 'A'; letter < 'L'; ++letter) {  // more than are followed
+        definitions += chosen(std::string(1, letter));
+        if (letter < 'D') calls += std::string(1, letter) + "(f) ";
+    }
+    bench.fragment(definitions + "layout(location = 0) out vec4 color;\nvoid main() { float f = 0.0; " + calls +
+                   "\n A(f) B(f) C(f) D(f) E(f) F(f) G(f) H(f) I(f) J(f) K(f)\ncolor = vec4(f); }\n");
+    EXPECT_NO_THROW(bench.compile({{"USE_B", "1"}}));
+    EXPECT_NO_THROW(bench.compile({{"USE_A", "1"}, {"USE_C", "1"}}));
+}
+
 TEST(CocosMacro, PragmaAndTextMayDefineANameInTurns) {
     CocosBench bench;
     bench.fragment(

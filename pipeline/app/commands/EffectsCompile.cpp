@@ -24,7 +24,8 @@ constexpr const char* kExamples =
     "  crevice effects compile ssao vignette\n"
     "  crevice effects compile ssao --define SSAO_SAMPLES=16 --json\n"
     "  crevice effects compile ssao -p ssao-deferred --all-variants\n"
-    "  crevice effects compile copy --text\n";
+    "  crevice effects compile copy --text\n"
+    "  crevice effects compile --engine ~/cocos-engine\n";
 
 struct CompileOptions {
     std::vector<std::string> effects, defines;
@@ -207,8 +208,19 @@ void CompileRun::checkDefines() {
     }
 }
 
-int runCompile(const CompileOptions& options) {
+/// Without a name: all effects of the project and the engine that are given; an engine has templates beside its own.
+void chooseEffects(CompileOptions& options) {
+    if (!options.effects.empty()) return;
+    const cocos::Roots roots = cocosRoots(options.cocos, {});
+    std::error_code error;
+    const std::filesystem::path engine = roots.engine.empty() ? roots.engine : roots.engineAssets() / "effects";
+    for (const std::filesystem::path& folder : {roots.projectAssets(), engine})
+        if (std::filesystem::is_directory(folder, error)) options.effects.push_back(folder.string());
     if (options.effects.empty()) throw Error("no effect given", "name one: crevice effects compile ssao");
+}
+
+int runCompile(CompileOptions options) {
+    chooseEffects(options);
     if (options.json && options.text) throw Error("--json and --text contradict each other", "choose one of them");
     return CompileRun(options).run();
 }
