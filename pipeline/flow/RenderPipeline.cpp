@@ -96,10 +96,10 @@ void RenderPipeline::writeLights(const Scene& scene) {
     const std::vector<std::byte> lights = punctualLights(scene);
     lights_ =
         Buffer(device_, {.size = lights.size(), .usage = BufferUsage::Storage, .name = "punctual lights"}, lights);
-    globals_.writeBuffer("CCPunctualLights", lights_);
     const float exposure = exposureFromEv(scene.exposureEv ? *scene.exposureEv : autoExposureEv(scene));
     const std::vector<std::byte> grid = lightGridBytes(makeLightGrid(scene, scene_->bounds(), exposure));
     lightGrid_ = Buffer(device_, {.size = grid.size(), .usage = BufferUsage::Storage, .name = "light grid"}, grid);
+    globals_.writeBuffer("CCPunctualLights", lights_);  // both, or none
     globals_.writeBuffer("CCLightGrid", lightGrid_);
     prepareEnvironment(scene);
     locals_.writeLights(forwardLightBlock(scene));

@@ -105,7 +105,7 @@ void DescriptorSet::writeBuffer(std::uint32_t binding, const Buffer& buffer, std
     Slot& target = slot(binding);
     target.written[0] = true;
     const VkDescriptorBufferInfo info{buffer.handle(), offset, range == 0 ? buffer.size() - offset : range};
-    pending_.push_back({binding, 0, target.type, info, {}});
+    pend({binding, 0, target.type, info, {}});
 }
 
 void DescriptorSet::writeTexture(std::uint32_t binding, const GpuTexture& texture, VkSampler sampler,
@@ -130,7 +130,13 @@ void DescriptorSet::writeImage(std::uint32_t binding, std::uint32_t element, VkD
     Slot& target = slot(binding);
     assert(element < target.count);
     target.written[element] = true;
-    pending_.push_back({binding, element, target.type, {}, info});
+    pend({binding, element, target.type, {}, info});
+}
+
+// One write a binding: an earlier one may name what is gone by now, where an error came between it and update().
+void DescriptorSet::pend(const Pending& write) {
+    std::erase_if(pending_, [&](const Pending& p) { return p.binding == write.binding && p.element == write.element; });
+    pending_.push_back(write);
 }
 
 void DescriptorSet::update() {

@@ -110,6 +110,7 @@ private:
     VkDescriptorSet set_ = VK_NULL_HANDLE;
     std::uint32_t dynamicCount_ = 0;
     std::vector<Slot> slots_;
+    void pend(const Pending& write);
     std::vector<Pending> pending_;
 };
 

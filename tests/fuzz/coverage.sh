@@ -11,7 +11,7 @@ declare -A files=(
   [material]="effect/Material"
   [scene]="scene/Scene(Asset|Fields|FileLookup)"
   [gltf]="scene/Gltf.*"
-  [image]="core/(ImageFiles|Hdr|Exr|Picture)"
+  [image]="core/(Hdr|Exr|Picture)"
   [cocosEffect]="cocos/(ChunkLibrary|CocosEffects|Conditions|EffectReflection|EngineMacros|Flattener|GlslStatements|GlslTypes|Interface.*|Macro.*|Numbering|PassReflection|Pragmas|PropertyReflection|Reflection|SourceText|Stage.*|TextConstants)"
   [cocosAsset]="cocos/(Mtl.*|Meta.*|ObjectGraph|Rpp.*|Import.*|Scene.*|TypedValue|Uuid|Version|Project|Shapes|StandardMaterial)")
 work=$(mktemp -d); trap 'rm -rf "$work"' EXIT
@@ -20,7 +20,8 @@ for target in ${TARGETS:-pipeline effect material scene gltf image cocosEffect c
   inputs=("$source/tests/fuzz/corpus/$target"); [ -d "$corpus/$target" ] && inputs+=("$corpus/$target")
   LLVM_PROFILE_FILE=$work/$target.raw "$program" -runs=0 "${inputs[@]}" > "$work/$target.log" 2>&1
   $profdata merge -sparse "$work/$target.raw" -o "$work/$target.data"
-  $cov report "$program" -instr-profile="$work/$target.data" $(find "$source/pipeline" -name '*.cpp' | grep -E "pipeline/(${files[$target]})\.cpp$") > "$work/$target.txt" 2> /dev/null
-  [ -n "$VERBOSE" ] && awk '/\.cpp/ {printf "  %-40s %6s of %6s lines\n", $1, $8-$9, $8}' "$work/$target.txt"
-  awk -v target="$target" '/^TOTAL/ {printf "| %s | %d of %d lines | %.1f %% |\n", target, $8-$9, $8, 100*($8-$9)/$8}' "$work/$target.txt"
+  $cov report "$program" -instr-profile="$work/$target.data" > "$work/$target.txt" 2> /dev/null
+  awk -v target="$target" -v files="pipeline/(${files[$target]})[.]cpp$" -v verbose="$VERBOSE" '
+    $1 ~ files { lines += $8; missed += $9; if (verbose) printf "  %-40s %6d of %6d lines\n", $1, $8 - $9, $8 }
+    END { printf "| %s | %d of %d | %.1f %% |\n", target, lines - missed, lines, 100 * (lines - missed) / lines }' "$work/$target.txt"
 done
