@@ -41,8 +41,8 @@ struct BlendTarget {
     bool operator==(const BlendTarget&) const = default;
 };
 
-/// What Cocos' files say of the stencil test of one side. Crevice's targets have no stencil: it is kept, not drawn
-/// with.
+/// What Cocos' files say of the stencil test of one side. A depth target that a pass with such a test draws into has
+/// eight bits of stencil; Crevice's own dialect has no words for it.
 struct StencilFace {
     bool test = false;
     CompareOp func = CompareOp::Always;
