@@ -18,17 +18,18 @@ struct Corner {
 // bottom of the picture, where v = 1.
 constexpr Corner kCorners[] = {{-1, -1, 0, 1}, {1, -1, 1, 1}, {-1, 1, 0, 0}, {1, 1, 1, 0}};
 constexpr std::uint32_t kIndices[] = {0, 1, 2, 1, 3, 2};
-constexpr std::uint64_t kZeroBytes = 64;
 
 }  // namespace
 
 QuadMesh::QuadMesh(Device& device)
     : vertices_(device, {.size = sizeof kCorners, .usage = BufferUsage::Vertex, .name = "quad vertices"}),
       indices_(device, {.size = sizeof kIndices, .usage = BufferUsage::Index, .name = "quad indices"}),
-      zeroes_(device, {.size = kZeroBytes, .usage = BufferUsage::Vertex, .name = "zero attributes"}) {
+      same_(device, {.size = kSameBytes, .usage = BufferUsage::Vertex, .name = "attributes of all vertices"}) {
     vertices_.write(std::as_bytes(std::span(kCorners)), 0);
     indices_.write(std::as_bytes(std::span(kIndices)), 0);
-    std::memset(zeroes_.data().data(), 0, kZeroBytes);
+    const Vertex usual;
+    std::memset(same_.data().data(), 0, kZeroBytes);
+    same_.write(std::as_bytes(std::span(&usual, 1)), kZeroBytes);
 }
 
 void QuadMesh::bind(Commands& commands) const {
@@ -36,7 +37,7 @@ void QuadMesh::bind(Commands& commands) const {
     commands.bindIndexBuffer(indices_);
 }
 
-void QuadMesh::bindZeroes(Commands& commands) const { commands.bindVertexBuffer(kZeroStream, zeroes_); }
+void QuadMesh::bindSame(Commands& commands) const { commands.bindVertexBuffer(kSameStream, same_); }
 
 void QuadMesh::draw(Commands& commands) const { commands.drawIndexed(std::size(kIndices)); }
 

@@ -1,4 +1,4 @@
-// The full-screen quad that Cocos' effects are drawn on, and zeroes for attributes that nothing feeds.
+// The full-screen quad that Cocos' effects are drawn on, and attributes that are the same for all vertices.
 #pragma once
 
 #include "gfx/Commands.h"
@@ -10,12 +10,12 @@ public:
     explicit QuadMesh(Device& device);
     /// As stream 0, with its indices.
     void bind(Commands& commands) const;
-    /// The zeroes, as stream 2.
-    void bindZeroes(Commands& commands) const;
+    /// As stream 2: see kSameStream.
+    void bindSame(Commands& commands) const;
     void draw(Commands& commands) const;
 
 private:
-    Buffer vertices_, indices_, zeroes_;
+    Buffer vertices_, indices_, same_;
 };
 
 }  // namespace crevice

@@ -39,7 +39,7 @@ SamplerKey keyOf(const SamplerDesc& desc) {
 }  // namespace
 
 SceneGpu::SceneGpu(Device& device, SamplerCache& samplers, const Scene& scene, Scene* releasing)
-    : scene_(scene), instances_(scene) {
+    : scene_(scene), instances_(scene), layout_(scene) {
     uploadMeshes(device, releasing);
     uploadTextures(device, samplers, releasing);
 }
@@ -55,8 +55,8 @@ void SceneGpu::uploadMeshes(Device& device, Scene* releasing) {
         count += mesh.indices.size();
     }
     if (indexCount + shortCount == 0) return;
-    vertices_ =
-        Buffer(device, {.size = vertexCount * sizeof(Vertex), .usage = BufferUsage::Vertex, .name = "scene vertices"});
+    const std::uint64_t stride = layout_.stride();
+    vertices_ = Buffer(device, {.size = vertexCount * stride, .usage = BufferUsage::Vertex, .name = "scene vertices"});
     if (indexCount > 0)
         indices_ = Buffer(
             device, {.size = indexCount * sizeof(std::uint32_t), .usage = BufferUsage::Index, .name = "scene indices"});
@@ -67,7 +67,8 @@ void SceneGpu::uploadMeshes(Device& device, Scene* releasing) {
     for (std::size_t i = 0; i < meshes_.size(); ++i) {
         const Mesh& mesh = scene_.meshes[i];
         const MeshRange& range = meshes_[i];
-        vertices_.write(std::as_bytes(std::span(mesh.vertices)), std::uint64_t(range.vertexOffset) * sizeof(Vertex));
+        layout_.pack(mesh.vertices, vertices_.data().subspan(std::uint64_t(range.vertexOffset) * stride,
+                                                             mesh.vertices.size() * stride));
         if (range.sixteenBit)
             narrow(mesh.indices, shortIndices_.data().subspan(range.firstIndex * sizeof(std::uint16_t)));
         else

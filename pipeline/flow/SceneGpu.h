@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "flow/VertexLayout.h"
 #include "gfx/Commands.h"
 #include "scene/DrawList.h"
 #include "scene/Scene.h"
@@ -31,6 +32,8 @@ public:
     const Scene& scene() const { return scene_; }
     const Aabb& bounds() const { return instances_.bounds(); }
     const InstanceTable& instances() const { return instances_; }
+    /// Of the vertices: decided by what the scene's meshes have.
+    const VertexLayout& layout() const { return layout_; }
     const MeshRange& mesh(int index) const { return meshes_[std::size_t(index)]; }
     const GpuTexture& texture(int index) const { return textures_[std::size_t(index)]; }
     VkSampler sampler(int texture) const { return textureSamplers_[std::size_t(texture)]; }
@@ -45,6 +48,7 @@ private:
 
     const Scene& scene_;
     InstanceTable instances_;
+    VertexLayout layout_;
     std::vector<MeshRange> meshes_;
     Buffer vertices_, indices_, shortIndices_;  ///< Meshes of up to 65536 vertices have indices of 16 bits.
     std::vector<GpuTexture> textures_;

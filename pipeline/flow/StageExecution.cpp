@@ -82,9 +82,10 @@ StageExecution::ShaderGpu StageExecution::makeShader(const EffectVariant& varian
         return shader;
     }
     const VertexInput input =
-        vertexInput(variant, surface ? VertexSource::Mesh : VertexSource::Quad, missingAttributes(context_.profile));
+        surface ? vertexInput(variant, VertexSource::Mesh, missingAttributes(context_.profile), scene_->layout())
+                : vertexInput(variant, VertexSource::Quad, missingAttributes(context_.profile));
     shader.usesQuad = !surface && input.uses(kMeshStream);
-    shader.usesZeroes = input.uses(kZeroStream);
+    shader.usesSame = input.uses(kSameStream);
     const bool twoSided = surface && !isCocos(context_.profile) && needsTwoPasses(state);
     if (twoSided) state.cullMode = CullMode::Back;
     shader.pipeline = &makePipeline(variant, input, layout, state);
@@ -179,7 +180,7 @@ void StageExecution::bindShader(const ShaderGpu& shader, bool flipped) {
     context_.commands.bindPipeline(flipped ? *shader.flipped : *shader.pipeline);
     context_.globals.bind(context_.commands);
     shader.binding->bind(context_.commands);
-    if (shader.usesZeroes) context_.quad.bindZeroes(context_.commands);
+    if (shader.usesSame) context_.quad.bindSame(context_.commands);
 }
 
 void StageExecution::draw(DrawId draw) {

@@ -75,7 +75,7 @@ private:
         /// Blended surfaces with two sides: drawn before `pipeline`, which then has the sides that face the viewer.
         const Pipeline* farSides = nullptr;
         const Pipeline* farSidesFlipped = nullptr;
-        bool usesLocal = false, usesQuad = false, usesZeroes = false;
+        bool usesLocal = false, usesQuad = false, usesSame = false;
         std::uint32_t order = 0;
     };
     void loadPictures();

@@ -44,16 +44,27 @@ std::span<const AttributeRow> attributesOf(VertexSource source) {
     return kAttributes;
 }
 
-std::uint32_t strideOf(std::uint32_t stream, VertexSource source) {
+std::uint32_t strideOf(std::uint32_t stream, VertexSource source, const VertexLayout& layout) {
     if (stream == kInstanceStream) return 3 * kRowBytes;
-    if (stream == kZeroStream) return 0;
-    return source == VertexSource::Quad ? 4 * sizeof(float) : sizeof(Vertex);
+    if (stream == kSameStream) return 0;
+    return source == VertexSource::Quad ? 4 * sizeof(float) : layout.stride();
+}
+
+/// Where the part of a vertex lies in a scene that may have left it out.
+AttributeRow placed(AttributeRow row, const VertexLayout& layout) {
+    if (const auto place = layout.placeOf(row.offset)) {
+        row.offset = *place;
+    } else {
+        row.binding = kSameStream;
+        row.offset += kZeroBytes;
+    }
+    return row;
 }
 
 /// Zeroes in the type that the shader declares.
 AttributeRow zeroRow(const ShaderVariable& input) {
     const bool integer = input.type.starts_with('u') || input.type.starts_with('i');
-    return {input.name.c_str(), kZeroStream, integer ? VertexFormat::UInt4 : VertexFormat::Float4, 0};
+    return {input.name.c_str(), kSameStream, integer ? VertexFormat::UInt4 : VertexFormat::Float4, 0};
 }
 
 AttributeRow findAttribute(const ShaderVariable& input, const EffectVariant& variant, VertexSource source,
@@ -76,21 +87,24 @@ bool VertexInput::uses(std::uint32_t stream) const {
     return std::any_of(bindings.begin(), bindings.end(), [&](const VertexBinding& b) { return b.binding == stream; });
 }
 
-VertexInput vertexInput(const EffectVariant& variant, VertexSource source, MissingAttributes missing) {
+VertexInput vertexInput(const EffectVariant& variant, VertexSource source, MissingAttributes missing,
+                        const VertexLayout& layout) {
     VertexInput result;
     for (const ShaderVariable& input : variant.info.inputs) {
         // Front ends keep declarations that no code reads in the shader's interface: Vulkan wants them fed.
         if (!input.active && missing == MissingAttributes::Refused) continue;
-        const AttributeRow row = findAttribute(input, variant, source, missing);
+        AttributeRow row = findAttribute(input, variant, source, missing);
+        if (source == VertexSource::Mesh && row.binding == kMeshStream) row = placed(row, layout);
         result.attributes.push_back(
             {.location = input.location, .binding = row.binding, .format = row.format, .offset = row.offset});
     }
-    for (const std::uint32_t stream : {kMeshStream, kInstanceStream, kZeroStream}) {
+    for (const std::uint32_t stream : {kMeshStream, kInstanceStream, kSameStream}) {
         const bool used = std::any_of(result.attributes.begin(), result.attributes.end(),
                                       [&](const VertexAttribute& a) { return a.binding == stream; });
         if (used)
-            result.bindings.push_back(
-                {.binding = stream, .stride = strideOf(stream, source), .perInstance = stream == kInstanceStream});
+            result.bindings.push_back({.binding = stream,
+                                       .stride = strideOf(stream, source, layout),
+                                       .perInstance = stream == kInstanceStream});
     }
     return result;
 }

@@ -4,13 +4,17 @@
 #include <vector>
 
 #include "effect/EffectLibrary.h"
+#include "flow/VertexLayout.h"
 #include "gfx/Pipeline.h"
 #include "plan/PipelineDesc.h"
 
 namespace crevice {
 
-/// Bindings: mesh vertices (or the corners of the full-screen quad), instance rows, and zeroes.
-inline constexpr std::uint32_t kMeshStream = 0, kInstanceStream = 1, kZeroStream = 2;
+/// Bindings: mesh vertices (or the corners of the full-screen quad), instance rows, and what is the same for all
+/// vertices.
+inline constexpr std::uint32_t kMeshStream = 0, kInstanceStream = 1, kSameStream = 2;
+/// Of the last one: zeroes for what meshes do not have, then Vertex{} for what none of a scene's meshes has.
+inline constexpr std::uint32_t kZeroBytes = 64, kSameBytes = kZeroBytes + sizeof(Vertex);
 
 struct VertexInput {
     std::vector<VertexBinding> bindings;  ///< Only those used.
@@ -28,8 +32,8 @@ inline MissingAttributes missingAttributes(Profile profile) {
 
 /// `missing`: what happens to attributes that the source does not have. Refused: throws Error naming those there are;
 /// attributes that no code reads are left out. Zero: feeds zeroes, and feeds those that no code reads too (Cocos'
-/// effects ask for the attributes of every mesh).
+/// effects ask for the attributes of every mesh). `layout`: of the meshes, see SceneGpu.
 VertexInput vertexInput(const EffectVariant& variant, VertexSource source = VertexSource::Mesh,
-                        MissingAttributes missing = MissingAttributes::Refused);
+                        MissingAttributes missing = MissingAttributes::Refused, const VertexLayout& layout = {});
 
 }  // namespace crevice
