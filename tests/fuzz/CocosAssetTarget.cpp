@@ -49,6 +49,7 @@ struct AssetFolder {
         write("assets/paint.mtl", kMaterial);
         write("assets/paint.mtl.meta", R"({ "importer": "material", "uuid": "10ff50d1-0000-4000-8000-000000f1736b" })");
         write("assets/m.gltf", kModel);
+        write("assets/other.gltf", kModel);
         write("assets/m.gltf.meta",
               R"({ "importer": "gltf", "uuid": "20ff50d1-0000-4000-8000-000000f1736b", "subMetas": {
   "a": { "importer": "gltf-mesh", "uuid": "20ff50d1-0000-4000-8000-000000f1736b@a", "userData": { "gltfIndex": 0 } },
@@ -79,7 +80,8 @@ void readMaterial(std::string_view text) {
 void readProjectFile(const AssetFolder& assets, const std::string& kind, std::string_view text) {
     static const Log kLog(LogLevel::Note, [](LogLevel, std::string_view) {});
     Problems problems;
-    const fs::path file = assets.write(kind == "meta" ? "assets/m.gltf.meta" : "assets/fuzz." + kind, text);
+    const fs::path file = assets.write(kind == "meta" ? "assets/other.gltf.meta" : "assets/fuzz." + kind, text);
+    if (kind != "meta") assets.write("assets/other.gltf.meta", "{}");
     cocos::Project project({.chunks = {}, .project = assets.folder.path(), .engine = {}}, readEffect, problems);
     if (kind == "rpp")
         (void)cocos::importPipeline({.rpp = file, .classes = {{"SsaoStage", {"seed"}, {"cc_ssaoMap"}}}}, project,
@@ -89,6 +91,11 @@ void readProjectFile(const AssetFolder& assets, const std::string& kind, std::st
         for (const cocos::MaterialForm form : {cocos::MaterialForm::Effects, cocos::MaterialForm::Plain})
             (void)cocos::importScene(file, project, form, options, problems);
     if (kind == "meta") {
+        for (const cocos::MetaAsset* part : project.metas().parts("20ff50d1-0000-4000-8000-000000f1736b", "gltf-mesh"))
+            (void)project.metas().find(part->uuid);
+        (void)project.metas().findFile(assets.folder.path() / "assets/other.gltf");
+        (void)project.effectName(assets.folder.path() / "assets/effects/builtin-standard.effect");
+        (void)project.findEffect("builtin-standard");
         (void)project.metas().parts("20ff50d1-0000-4000-8000-000000f1736b", "gltf-mesh");
         (void)project.metas().findNearest("20ff50d1-0000-4000-8000-000000f1736b@zzz");
     }
