@@ -25,7 +25,7 @@ constexpr const char* kExamples =
     "  crevice effects compile ssao --define SSAO_SAMPLES=16 --json\n"
     "  crevice effects compile ssao -p ssao-deferred --all-variants\n"
     "  crevice effects compile copy --text\n"
-    "  crevice effects compile --engine ~/cocos-engine\n";
+    "  crevice effects compile --engine cocos-engine\n";
 
 struct CompileOptions {
     std::vector<std::string> effects, defines;
