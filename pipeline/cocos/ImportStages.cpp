@@ -33,7 +33,7 @@ constexpr LeftOut kLeftOut[] = {
 };
 
 bool isPicture(const std::filesystem::path& path) {
-    static constexpr std::string_view kEndings[] = {".png", ".jpg", ".jpeg", ".webp", ".exr"};
+    static constexpr std::string_view kEndings[] = {".png", ".jpg", ".jpeg", ".webp", ".exr", ".PNG", ".JPG", ".JPEG"};
     const std::string ending = path.extension().string();
     return std::find(std::begin(kEndings), std::end(kEndings), ending) != std::end(kEndings);
 }

@@ -38,7 +38,9 @@ Fog readFog(const Value& info, double exposure, Problems& problems) {
     Fog fog;
     if (!fields.boolean("_enabled", false)) return fog;
     constexpr FogType kTypes[] = {FogType::Linear, FogType::Exp, FogType::Exp2, FogType::Layered};
-    fog.type = kTypes[std::clamp<std::int64_t>(fields.integer("_type", 0), 0, 3)];
+    const std::int64_t type = fields.integer("_type", 0);
+    if (type < 0 || type >= std::ssize(kTypes)) return fog;  // 4 is FOG_TYPE_NONE of old scenes
+    fog.type = kTypes[type];
     // The engine squares colours where it makes them linear.
     const glm::vec3 color(readVector(info, "_fogColor", {0.78f, 0.78f, 0.78f, 1}, problems));
     fog.color = color * color / float(exposure);

@@ -303,7 +303,7 @@ private:
     void takeSkybox(const AssetRef& picture, double illuminance) {
         const MetaAsset* asset = picture ? project_.metas().find(picture.uuid) : nullptr;
         const std::string ending = asset ? asset->path.extension().string() : "";
-        if (ending != ".hdr" && ending != ".exr") {
+        if (ending != ".hdr" && ending != ".HDR" && ending != ".exr" && ending != ".EXR") {
             ++skipped_["the skybox"];
             return;
         }
@@ -311,7 +311,8 @@ private:
             out_.scene.environment = loadEnvironment(asset->path, options_.log);
             out_.scene.environment->intensity = float(illuminance);
         } catch (const Error& error) {
-            problems_.add(error);
+            problems_.warning(picture.where,
+                              fmt::format("the skybox is left out: {}", error.problems().front().message));
         }
     }
 

@@ -92,6 +92,21 @@ TEST(CocosScene, ASkyThatLightsIsTheEnvironment) {
     EXPECT_TRUE(contains(folder.notes, "left out: the skybox"));
 }
 
+TEST(CocosScene, ASkyThatCannotBeReadIsLeftOut) {
+    SceneFolder folder;
+    folder.write("project/sky.hdr", "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 3 +X 4\n");
+    folder.write("project/sky.hdr.meta",
+                 R"({"importer":"image","uuid":"30ff50d1-0000-4000-8000-000000f1736b","subMetas":{}})");
+    const auto loaded = folder.load(withComponent(R"({ "__type__": "cc.UITransform" })", "",
+                                                  R"({ "__type__": "cc.SceneGlobals",
+            "fog": { "__type__": "cc.FogInfo", "_enabled": true, "_type": 4 },
+            "_skybox": { "__type__": "cc.SkyboxInfo", "_enabled": true, "_envLightingType": 2,
+                         "_envmapHDR": { "__uuid__": "30ff50d1-0000-4000-8000-000000f1736b" } } })"));
+    EXPECT_FALSE(loaded.scene.environment);
+    EXPECT_EQ(loaded.scene.fog.type, FogType::None);  // 4 is no fog
+    EXPECT_TRUE(contains(folder.notes, "the skybox is left out: ")) << folder.notes;
+}
+
 TEST(CocosScene, SkinnedMeshesStandWhereTheirRootIs) {
     SceneFolder folder;
     const std::string place = R"("_lpos": { "__type__": "cc.Vec3", "x": 10, "y": 0, "z": 0 })";

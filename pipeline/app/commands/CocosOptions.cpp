@@ -22,6 +22,7 @@ fs::path checkFolder(const char* option, const std::string& folder) {
 }
 
 std::vector<cocos::StageFacts> factsOf(const StageRegistry& registry) {
+    const RunInfo run;
     std::vector<cocos::StageFacts> all;
     for (const StageClass& stageClass : registry.classes()) {
         cocos::StageFacts facts{.name = stageClass.name};
@@ -32,7 +33,7 @@ std::vector<cocos::StageFacts> factsOf(const StageRegistry& registry) {
         StageDeclaration declaration;
         StageDesc desc;
         desc.effect = stageClass.name;  // a name of any kind: data-only stages insist on one
-        StageIo io(declaration, desc, RunInfo{});
+        StageIo io(declaration, desc, run);
         stage->declare(io);
         for (const TargetWrite& write : declaration.writes) facts.writes.push_back(write.target);
         all.push_back(std::move(facts));
