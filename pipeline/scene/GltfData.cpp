@@ -15,6 +15,9 @@ namespace {
 
 /// Elements of each accessor that are looked at, so that a big file loads as fast as it can; with --strict all are.
 constexpr std::size_t kFirst = 4096;
+/// Elements of all accessors together, without --strict: they may share bytes, so that a file can name far more of them
+/// than it holds.
+constexpr std::size_t kTogether = 10'000'000;
 
 // How far values may be off: floats as exporters round them, integers by the half of their smallest step and more.
 constexpr float kUnitFloat = 0.0068f, kUnitInteger = 0.03f;
@@ -23,7 +26,10 @@ constexpr float kSumFloat = 5e-4f, kSumInteger = 2e-3f;
 /// Checks accessors once each, whatever number of meshes share them.
 class Check {
 public:
-    explicit Check(const File& file) : file_(file), most_(file.options.strict ? std::size_t(-1) : kFirst) {}
+    explicit Check(const File& file)
+        : file_(file),
+          most_(file.options.strict ? std::size_t(-1) : kFirst),
+          left_(file.options.strict ? std::size_t(-1) : kTogether) {}
 
     void checkPrimitive(const PrimitivePart& primitive) {
         for (const auto& [name, accessor] : primitive.attributes) {
@@ -37,7 +43,7 @@ public:
 
     void checkSkin(std::size_t index) {
         const int accessor = intOr(file_.item("skins", index), "inverseBindMatrices");
-        if (accessor < 0 || !isNew(accessor) || !hasData(file_, accessor)) return;
+        if (accessor < 0 || !isNew(accessor) || !mayRead(accessor)) return;
         const Floats matrices = readFirstFloats(file_, accessor, most_);
         for (std::size_t i = 0; i < matrices.count() && matrices.components == 16; ++i) {
             const float* m = matrices.at(i);
@@ -47,19 +53,23 @@ public:
         }
     }
 
-    // Joints of weight 0, too: the others are an error once the mesh is bent.
-    void checkJoints(const NodePart& node) {
-        if (node.mesh < 0 || node.skin < 0) return;
-        const std::size_t count = listIn(file_.item("skins", std::size_t(node.skin)), "joints").size();
-        for (const PrimitivePart& primitive : file_.model.meshes[std::size_t(node.mesh)].primitives)
-            for (const auto& [name, accessor] : primitive.attributes) {
-                if (!name.starts_with("JOINTS_") || !hasData(file_, accessor)) continue;
-                const Floats joints = readFirstFloats(file_, accessor, most_);
-                const auto largest = std::max_element(joints.values.begin(), joints.values.end());
-                if (largest != joints.values.end() && *largest >= float(count))
-                    file_.fault("accessors", std::size_t(accessor),
-                                fmt::format("it names joint {}, skins[{}] has {}", *largest, node.skin, count));
-            }
+    // Joints of weight 0, too: the others are an error once the mesh is bent. Each mesh is held against the smallest of
+    // its skins.
+    void checkJoints() {
+        std::map<int, std::pair<std::size_t, int>> skins;  // of a mesh: joints, skin
+        for (const NodePart& node : file_.model.nodes) {
+            if (node.mesh < 0 || node.skin < 0) continue;
+            const std::pair skin(listIn(file_.item("skins", std::size_t(node.skin)), "joints").size(), node.skin);
+            const auto entry = skins.emplace(node.mesh, skin).first;
+            entry->second = std::min(entry->second, skin);
+        }
+        for (const auto& [mesh, skin] : skins)
+            for (const PrimitivePart& primitive : file_.model.meshes[std::size_t(mesh)].primitives)
+                for (const auto& [name, accessor] : primitive.attributes)
+                    if (name.starts_with("JOINTS_") && largestOf(accessor) >= float(skin.first))
+                        file_.fault("accessors", std::size_t(accessor),
+                                    fmt::format("it names joint {}, skins[{}] has {}", largestOf(accessor), skin.second,
+                                                skin.first));
     }
 
     void checkAnimation(const Value& animation) {
@@ -75,7 +85,7 @@ public:
     // Integers and numbers that nobody reads, as well: the rest is compared when it is read.
     void checkValues(std::size_t index) {
         const AccessorPart& accessor = file_.model.accessors[index];
-        if (accessor.count > most_ || !hasData(file_, int(index))) return;
+        if (accessor.count > most_ || !mayRead(int(index))) return;
         const Floats values = readRaw(int(index));
         for (std::size_t i = 0; i < values.values.size(); ++i)
             if (!std::isfinite(values.values[i]))
@@ -109,6 +119,27 @@ private:
 
     bool isNew(int accessor) { return seen_.insert(accessor).second; }
 
+    // Whether there is something to look at, within what may be looked at. Elements without bytes are zeros but for the
+    // sparse ones: a count of a milliard costs a file nothing, so long ones are left out.
+    bool mayRead(int index) {
+        if (!hasData(file_, index)) return false;
+        const AccessorPart& accessor = accessorOf(index);
+        const std::size_t count = std::min(accessor.count, most_);
+        if ((accessor.bufferView < 0 && count > kFirst) || count > left_) return false;
+        left_ -= count;
+        return true;
+    }
+
+    // The largest number, read once.
+    float largestOf(int accessor) {
+        const auto [entry, isFirst] = largest_.emplace(accessor, -1.0f);
+        if (isFirst && mayRead(accessor)) {
+            const Floats numbers = readFirstFloats(file_, accessor, most_);
+            for (const float number : numbers.values) entry->second = std::max(entry->second, number);
+        }
+        return entry->second;
+    }
+
     bool isFloat(int accessor) const { return accessorOf(accessor).componentType == kFloat; }
     const AccessorPart& accessorOf(int index) const { return file_.model.accessors[std::size_t(index)]; }
 
@@ -127,7 +158,7 @@ private:
     }
 
     void checkUnit(int accessor, int components) {
-        if (!hasData(file_, accessor) || accessorOf(accessor).components() != components) return;
+        if (accessorOf(accessor).components() != components || !mayRead(accessor)) return;
         const Floats vectors = readFirstFloats(file_, accessor, most_);
         const float tolerance = isFloat(accessor) ? kUnitFloat : kUnitInteger;
         for (std::size_t i = 0; i < vectors.count(); ++i) {
@@ -143,7 +174,7 @@ private:
     }
 
     void checkColours(int accessor) {
-        if (!isFloat(accessor) || !hasData(file_, accessor)) return;
+        if (!isFloat(accessor) || !mayRead(accessor)) return;
         const Floats colours = readFirstFloats(file_, accessor, most_);
         for (std::size_t i = 0; i < colours.values.size(); ++i)
             if (!(colours.values[i] >= 0 && colours.values[i] <= 1))
@@ -154,25 +185,31 @@ private:
 
     // Of each vertex all sets together sum up to 1, and no joint counts twice.
     void checkWeights(const PrimitivePart& primitive) {
-        std::vector<Floats> weights;
-        std::vector<Floats> joints;
-        int first = -1;
-        float tolerance = kSumFloat;
-        for (int set = 0;; ++set) {
-            const auto weight = primitive.attributes.find(fmt::format("WEIGHTS_{}", set));
-            const auto joint = primitive.attributes.find(fmt::format("JOINTS_{}", set));
+        std::vector<std::pair<int, int>> sets;  // accessors of weights and joints
+        for (;;) {
+            const auto weight = primitive.attributes.find(fmt::format("WEIGHTS_{}", sets.size()));
+            const auto joint = primitive.attributes.find(fmt::format("JOINTS_{}", sets.size()));
             if (weight == primitive.attributes.end() || joint == primitive.attributes.end()) break;
-            if (!hasData(file_, weight->second) || !hasData(file_, joint->second)) return;
             const AccessorPart &w = accessorOf(weight->second), &j = accessorOf(joint->second);
             const bool plain = j.componentType == kUByte || j.componentType == kUShort;
             if (w.components() != 4 || j.components() != 4 || w.count != j.count || !plain) return;
-            if (!weights.empty() && weights[0].count() != std::min(w.count, most_)) return;
-            weights.push_back(readFirstFloats(file_, weight->second, most_));
-            joints.push_back(readFirstFloats(file_, joint->second, most_));
-            if (first < 0) first = weight->second;
-            if (!isFloat(weight->second)) tolerance = kSumInteger;
+            if (!sets.empty() && accessorOf(sets[0].first).count != w.count) return;
+            sets.emplace_back(weight->second, joint->second);
         }
-        if (weights.empty() || !isNew(first)) return;
+        // All sets are in memory at once: no more of them than vertices may be.
+        if (sets.empty() ||
+            std::min(accessorOf(sets[0].first).count, most_) > file_.options.limits.maxVertices / sets.size())
+            return;
+        const int first = sets[0].first;
+        if (!isNew(first)) return;
+        std::vector<Floats> weights, joints;
+        float tolerance = kSumFloat;
+        for (const auto& [weight, joint] : sets) {
+            if (!mayRead(weight) || !mayRead(joint)) return;
+            weights.push_back(readFirstFloats(file_, weight, most_));
+            joints.push_back(readFirstFloats(file_, joint, most_));
+            if (!isFloat(weight)) tolerance = kSumInteger;
+        }
         for (std::size_t i = 0; i < weights[0].count(); ++i)
             if (!checkVertex(weights, joints, i, tolerance, std::size_t(first))) return;
     }
@@ -207,8 +244,8 @@ private:
     // The largest number of a type separates strips on some devices.
     void checkRestart(int accessor) {
         const int type = accessorOf(accessor).componentType;
-        if (!hasData(file_, accessor) || (type != kUByte && type != kUShort && type != kUInt)) return;
-        if (accessorOf(accessor).count > most_) return;
+        if ((type != kUByte && type != kUShort && type != kUInt) || accessorOf(accessor).count > most_) return;
+        if (!mayRead(accessor)) return;
         const std::uint32_t restart = type == kUByte ? 255u : type == kUShort ? 65535u : 4294967295u;
         const std::vector<std::uint32_t> indices = readIntegers(file_, accessor);
         if (std::find(indices.begin(), indices.end(), restart) != indices.end())
@@ -224,7 +261,7 @@ private:
         const Value& item = file_.item("accessors", std::size_t(accessor));
         if (!item.find("min") || !item.find("max"))
             file_.fault("accessors", std::size_t(accessor), "times of animations need 'min' and 'max'");
-        if (!hasData(file_, accessor) || accessorOf(accessor).components() != 1) return;
+        if (accessorOf(accessor).components() != 1 || !mayRead(accessor)) return;
         const Floats times = readFirstFloats(file_, accessor, most_);
         for (std::size_t i = 0; i < times.count(); ++i)
             if (times.values[i] < 0 || (i > 0 && times.values[i] <= times.values[i - 1]))
@@ -235,7 +272,7 @@ private:
 
     void checkTurns(const Value& sampler) {
         const int accessor = intOr(sampler, "output");
-        if (!hasData(file_, accessor) || accessorOf(accessor).components() != 4 || !isNew(accessor)) return;
+        if (accessorOf(accessor).components() != 4 || !isNew(accessor) || !mayRead(accessor)) return;
         const Floats turns = readFirstFloats(file_, accessor, most_);
         const bool cubic = textOr(sampler, "interpolation") == "CUBICSPLINE";  // tangents are no turns
         for (std::size_t i = cubic ? 1 : 0; i < turns.count(); i += cubic ? 3 : 1) {
@@ -249,7 +286,9 @@ private:
 
     const File& file_;
     const std::size_t most_;
+    std::size_t left_;  ///< Elements that may still be looked at.
     std::set<int> seen_;
+    std::map<int, float> largest_;
 };
 
 }  // namespace
@@ -259,7 +298,7 @@ void checkData(const File& file) {
     for (const MeshPart& mesh : file.model.meshes)
         for (const PrimitivePart& primitive : mesh.primitives) check.checkPrimitive(primitive);
     for (std::size_t i = 0; i < listIn(file.json, "skins").size(); ++i) check.checkSkin(i);
-    for (const NodePart& node : file.model.nodes) check.checkJoints(node);
+    check.checkJoints();
     for (const Value& animation : listIn(file.json, "animations")) check.checkAnimation(animation);
     for (std::size_t i = 0; i < file.model.accessors.size(); ++i) check.checkValues(i);
 }

@@ -55,7 +55,7 @@ const std::vector<Value>& namesIn(const File& file, const char* key) {
 }
 
 void checkExtensions(const File& file) {
-    const std::vector<Value>& used = namesIn(file, "extensionsUsed");
+    const std::vector<Value>&used = namesIn(file, "extensionsUsed"), &required = namesIn(file, "extensionsRequired");
     for (const char* key : {"extensionsUsed", "extensionsRequired"}) {
         std::set<std::string> names;
         const Value* list = file.json.find(key);
@@ -65,7 +65,7 @@ void checkExtensions(const File& file) {
                 file.fault(placeOf(file, &name), fmt::format("'{}' is in '{}' twice", name.string(), key));
         }
     }
-    for (const Value& name : namesIn(file, "extensionsRequired")) {
+    for (const Value& name : required) {
         if (!isSupportedExtension(name.string()))
             throw Error(placeOf(file, &name),
                         fmt::format("the file requires the extension '{}', which Crevice does not read", name.string()),

@@ -18,26 +18,45 @@ bool isOpaque(const Mesh& mesh) {
     return std::all_of(mesh.vertices.begin(), mesh.vertices.end(), [](const Vertex& v) { return v.color.a >= 1; });
 }
 
-bool isOpaque(const SceneMaterial& material, const Scene& scene) {
-    return material.baseColor.a >= 1 &&
-           (!material.baseColorMap || isOpaque(scene.textures[std::size_t(material.baseColorMap.texture)].image));
-}
+/// Answers for textures and meshes, each of which is looked through once, whatever number of materials share it.
+class Opaque {
+public:
+    explicit Opaque(const Scene& scene) : scene_(scene) {}
+
+    bool isOpaqueMaterial(const SceneMaterial& material) {
+        return material.baseColor.a >= 1 && (!material.baseColorMap || isOpaqueTexture(material.baseColorMap.texture));
+    }
+    bool isOpaqueMesh(int mesh) {
+        const auto [entry, isNew] = meshes_.emplace(mesh, false);
+        if (isNew) entry->second = isOpaque(scene_.meshes[std::size_t(mesh)]);
+        return entry->second;
+    }
+
+private:
+    bool isOpaqueTexture(int texture) {
+        const auto [entry, isNew] = textures_.emplace(texture, false);
+        if (isNew) entry->second = isOpaque(scene_.textures[std::size_t(texture)].image);
+        return entry->second;
+    }
+
+    const Scene& scene_;
+    std::map<int, bool> textures_, meshes_;
+};
 
 }  // namespace
 
 void drawOpaqueWhatIs(Scene& scene) {
-    std::vector<char> candidate;
-    for (const SceneMaterial& material : scene.materials)
-        candidate.push_back(material.alphaMode == AlphaMode::Blend && isOpaque(material, scene));
-    if (std::find(candidate.begin(), candidate.end(), 1) == candidate.end()) return;
-    std::set<std::pair<int, int>> seen;  // material, mesh
+    Opaque opaque(scene);
+    std::map<int, bool> candidates;  // blended materials in use
     for (const Instance& instance : scene.instances) {
-        char& opaque = candidate[std::size_t(instance.material)];
-        if (opaque && seen.insert({instance.material, instance.mesh}).second)
-            opaque = isOpaque(scene.meshes[std::size_t(instance.mesh)]);
+        const SceneMaterial& material = scene.materials[std::size_t(instance.material)];
+        if (material.alphaMode != AlphaMode::Blend) continue;
+        const auto [candidate, isNew] = candidates.emplace(instance.material, false);
+        if (isNew) candidate->second = opaque.isOpaqueMaterial(material);
+        if (candidate->second) candidate->second = opaque.isOpaqueMesh(instance.mesh);
     }
-    for (std::size_t i = 0; i < candidate.size(); ++i)
-        if (candidate[i]) scene.materials[i].alphaMode = AlphaMode::Opaque;
+    for (const auto& [material, isWhole] : candidates)
+        if (isWhole) scene.materials[std::size_t(material)].alphaMode = AlphaMode::Opaque;
 }
 
 }  // namespace crevice::gltf
