@@ -92,6 +92,8 @@ void readDepth(const StateReader& reader, RenderState& state) {
     reader.flag("depthTest", state.depthTest);
     reader.flag("depthWrite", state.depthWrite);
     reader.word("depthFunc", kCompareNames, state.depthFunc);
+    // A key without a side is for both.
+    for (StencilFace* face : {&state.stencilFront, &state.stencilBack}) readStencil(reader, "", *face);
     readStencil(reader, "Front", state.stencilFront);
     readStencil(reader, "Back", state.stencilBack);
 }
@@ -106,7 +108,7 @@ void readBlendTarget(const Value& item, BlendTarget& target, Problems& problems)
     reader.word("blendDstAlpha", kBlendFactorNames, target.dstAlpha);
     reader.word("blendAlphaEq", kBlendOpNames, target.alphaOp);
     const Value* mask = item.find("blendColorMask");
-    if (mask && mask->isNumber()) target.colorMask = static_cast<std::uint8_t>(static_cast<int>(mask->number()) & 0xf);
+    if (mask && mask->isInteger()) target.colorMask = static_cast<std::uint8_t>(mask->integer() & 0xf);
 }
 
 const Value* objectIn(const Value& states, const char* key) {
