@@ -27,7 +27,7 @@ const StageDesc* findStage(const PipelineDesc& desc, Match&& matches) {
 std::string pcfOf(const PipelineDesc& desc, const Scene& scene) {
     const Light* main = mainLight(scene);
     if (main && main->shadow) return std::to_string(std::clamp(main->shadow->pcf, 0, 3));
-    return std::to_string(shadowSettings(desc, false).pcf);
+    return std::to_string(shadowSettings(desc, false, glm::uvec2(1)).pcf);
 }
 
 const char* fogNumber(FogType type) {

@@ -6,6 +6,7 @@
 #include <span>
 
 #include "flow/CocosMacros.h"
+#include "plan/TargetSize.h"
 
 namespace crevice {
 namespace {
@@ -66,7 +67,7 @@ std::vector<std::byte> make(const ShadowView* view, const Light* light, const Sh
 
 int pcfType(int choice) { return choice == 0 ? 0 : choice + 1; }
 
-ShadowSettings shadowSettings(const PipelineDesc& desc, bool spot) {
+ShadowSettings shadowSettings(const PipelineDesc& desc, bool spot, glm::uvec2 frame) {
     ShadowSettings settings;
     const StageDesc* stage = shadowStage(desc, spot ? "spot" : "directional");
     if (stage && stage->params.isObject()) {
@@ -76,7 +77,7 @@ ShadowSettings shadowSettings(const PipelineDesc& desc, bool spot) {
             settings.pcf = pcfType(pcf->string() == "1x1" ? 0 : pcf->string() == "5x5" ? 2 : 1);
     }
     const TargetDesc* map = desc.findTarget(shadowMapName(desc.profile, spot));
-    if (map && map->size) settings.size = glm::vec2(*map->size);
+    if (map) settings.size = glm::vec2(targetExtent(*map, frame.x, frame.y));
     return settings;
 }
 

@@ -24,11 +24,11 @@ void uploadCamera(GlobalSet& globals, const PipelineDesc& desc, const FrameView&
     }
 }
 
-void uploadMainShadow(GlobalSet& globals, const PipelineDesc& desc, const Scene& scene, const Aabb& bounds,
-                      bool drawn) {
+void uploadMainShadow(GlobalSet& globals, const PipelineDesc& desc, const FrameView& view, const Scene& scene,
+                      const Aabb& bounds, bool drawn) {
     const auto seen = drawn ? directionalShadowView(scene, bounds) : std::nullopt;
-    globals.upload("CCShadow",
-                   shadowBlock(desc.profile, seen ? &*seen : nullptr, mainLight(scene), shadowSettings(desc, false)));
+    globals.upload("CCShadow", shadowBlock(desc.profile, seen ? &*seen : nullptr, mainLight(scene),
+                                           shadowSettings(desc, false, view.extent)));
 }
 
 bool isForward(const PipelineDesc& desc) {
@@ -49,7 +49,8 @@ FrameLights uploadSingleLights(LocalSet& locals, const PipelineDesc& desc, const
         blocks.push_back(singleLight(cocosLights(view, scene, {index}, look), 0));
         const bool casts = &light == shadowed;
         LitLight lit{.reach = {},
-                     .shadow = shadowBlock(desc.profile, casts ? &*seen : nullptr, &light, shadowSettings(desc, true))};
+                     .shadow = shadowBlock(desc.profile, casts ? &*seen : nullptr, &light,
+                                           shadowSettings(desc, true, view.extent))};
         const float range = cocosRange(light, view.exposure);
         lit.reach.add(light.position - range);
         lit.reach.add(light.position + range);
@@ -73,7 +74,7 @@ FrameLights uploadFrame(GlobalSet& globals, LocalSet& locals, const PipelineDesc
                          .spotShadows = drawsShadows(desc, "spot"),
                          .environmentLevels = environmentLevels};
     uploadCamera(globals, desc, view, scene, look);
-    uploadMainShadow(globals, desc, scene, bounds, look.shadows);
+    uploadMainShadow(globals, desc, view, scene, bounds, look.shadows);
     FrameLights lights;
     locals.writeLights(cocosLights(view, scene, relevantLights(view, scene, lights.left), look));
     return isForward(desc) ? uploadSingleLights(locals, desc, view, scene, bounds, look) : lights;

@@ -99,6 +99,20 @@ TEST(CocosShadow, WithoutAMapEveryPointIsOutsideOfIt) {
     }
 }
 
+TEST(CocosShadow, AMapIsAsLargeAsItsTarget) {
+    PipelineDesc desc;
+    desc.profile = Profile::Cocos36;
+    TargetDesc& main = desc.targets.emplace_back();
+    main.name = "cc_shadowMap";
+    main.size = glm::uvec2(512, 256);
+    desc.targets.emplace_back().name = "cc_spotShadowMap";
+    EXPECT_EQ(shadowSettings(desc, false, {640, 361}).size, glm::vec2(512, 256));
+    EXPECT_EQ(shadowSettings(desc, true, {640, 361}).size, glm::vec2(640, 361));
+    desc.targets[1].scale = 0.5f;
+    EXPECT_EQ(shadowSettings(desc, true, {640, 361}).size, glm::vec2(320, 181));  // rounded up
+    EXPECT_EQ(shadowSettings(desc, true, {1, 1}).size, glm::vec2(1));
+}
+
 TEST(CocosMacros, FollowWhatTheFrameFills) {
     PipelineDesc desc;
     desc.profile = Profile::Cocos36;
