@@ -99,6 +99,14 @@ void SceneMaterials::translate(SceneMaterial& material) {
         notedStandard_ = true;
         return;
     }
+    if (dropFurtherCoordinates(material) && !notedCoordinates_) {
+        problems_.warning({},
+                          fmt::format("material '{}' loses the maps of its third and fourth set of texture "
+                                      "coordinates, and so may others",
+                                      material.name),
+                          fmt::format("'{}' reads two sets: use no more for each material", kStandardEffect));
+        notedCoordinates_ = true;
+    }
     setEffect(material, makeStandardMtl(material, *asset), *path);
     for (const TextureRef* ref : {&material.baseColorMap, &material.emissiveMap}) {
         if (*ref) scene_.textures[std::size_t(ref->texture)].srgb = false;
@@ -146,8 +154,7 @@ void translateMaterials(Scene& scene, Project& project, Problems& problems) {
     SceneMaterials materials(project, scene, MaterialForm::Effects, problems);
     for (SceneMaterial& material : scene.materials) materials.translate(material);
     for (const Instance& instance : scene.instances) {
-        Mesh& mesh = scene.meshes[std::size_t(instance.mesh)];
-        if (!mesh.hasTangents && scene.materials[std::size_t(instance.material)].normalMap) addTangents(mesh);
+        addTangentsFor(scene.materials[std::size_t(instance.material)], scene.meshes[std::size_t(instance.mesh)]);
     }
 }
 

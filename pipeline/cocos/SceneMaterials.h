@@ -28,7 +28,7 @@ public:
     int addDefault();
     /// A material as the glTF importer of Cocos' editor makes it of metallic-roughness: builtin-standard, its macros,
     /// properties and technique. Does nothing in the plain form. Its textures are read as they are stored: the effects
-    /// square colours themselves.
+    /// square colours themselves. Maps with more than the two sets of coordinates that effects have are taken away.
     void translate(SceneMaterial& material);
 
 private:
@@ -44,7 +44,7 @@ private:
     std::map<std::string, int> materials_;
     std::map<std::pair<std::string, bool>, int> textures_;
     int default_ = -1;
-    bool notedStandard_ = false;
+    bool notedStandard_ = false, notedCoordinates_ = false;
 };
 
 /// For every material of a loaded glTF: translate(), and tangents for meshes whose materials have normal maps.

@@ -48,18 +48,16 @@ SceneModels::Model& SceneModels::load(const MetaAsset& asset, const AssetRef& re
     model.textureBase = int(scene_.textures.size());
     model.materialCount = loaded.materials.size();
     std::move(loaded.textures.begin(), loaded.textures.end(), std::back_inserter(scene_.textures));
-    for (const Instance& instance : loaded.instances) {
-        Mesh& mesh = loaded.meshes[std::size_t(instance.mesh)];
-        if (!mesh.hasTangents && loaded.materials[std::size_t(instance.material)].normalMap) addTangents(mesh);
-    }
-    std::move(loaded.meshes.begin(), loaded.meshes.end(), std::back_inserter(scene_.meshes));
     for (SceneMaterial& material : loaded.materials) {
         for (TextureRef* texture : {&material.baseColorMap, &material.metallicRoughnessMap, &material.normalMap,
                                     &material.occlusionMap, &material.emissiveMap})
             shift(*texture, model.textureBase);
         materials_.translate(material);
-        scene_.materials.push_back(std::move(material));
     }
+    for (const Instance& instance : loaded.instances)
+        addTangentsFor(loaded.materials[std::size_t(instance.material)], loaded.meshes[std::size_t(instance.mesh)]);
+    std::move(loaded.materials.begin(), loaded.materials.end(), std::back_inserter(scene_.materials));
+    std::move(loaded.meshes.begin(), loaded.meshes.end(), std::back_inserter(scene_.meshes));
     for (Instance instance : loaded.instances) {
         instance.mesh += model.meshBase;
         instance.material += model.materialBase;

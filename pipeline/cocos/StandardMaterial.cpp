@@ -94,6 +94,17 @@ int sceneTextureOf(const AssetRef& ref) {
     return index;
 }
 
+bool dropFurtherCoordinates(SceneMaterial& material) {
+    bool any = false;
+    for (TextureRef* map : {&material.baseColorMap, &material.metallicRoughnessMap, &material.normalMap,
+                            &material.occlusionMap, &material.emissiveMap}) {
+        if (!*map || map->texcoord < 2) continue;
+        *map = {};
+        any = true;
+    }
+    return any;
+}
+
 Mtl makeStandardMtl(const SceneMaterial& material, const EffectAsset& standard) {
     PassWriter writer;
     // Linear numbers go where nothing squares them; mainColor, which is squared, keeps white.

@@ -13,6 +13,10 @@ inline constexpr const char* kStandardEffect = "builtin-standard";
 /// instantiate() leaves out what a pass does not know. Textures are references of the form "scene:INDEX".
 Mtl makeStandardMtl(const SceneMaterial& material, const EffectAsset& standard);
 
+/// Takes away the maps that are read with sets 2 and 3 of texture coordinates: the effect has two. Whether there were
+/// any.
+bool dropFurtherCoordinates(SceneMaterial& material);
+
 /// The number in a reference that makeStandardMtl() wrote, or -1.
 int sceneTextureOf(const AssetRef& ref);
 

@@ -41,4 +41,12 @@ void addTangents(Mesh& mesh) {
     mesh.hasTangents = true;
 }
 
+void addTangentsFor(const SceneMaterial& material, Mesh& mesh) {
+    if (mesh.hasTangents || !material.normalMap) return;
+    for (const TextureRef* map : {&material.baseColorMap, &material.metallicRoughnessMap, &material.normalMap,
+                                  &material.occlusionMap, &material.emissiveMap})
+        if (*map && map->texcoord > 1) return;
+    addTangents(mesh);
+}
+
 }  // namespace crevice::cocos

@@ -52,6 +52,26 @@ TEST(CocosTangents, PointWhereUGrows) {
     EXPECT_NEAR(glm::length(glm::vec3(mesh.vertices[0].tangent)), 1, 1e-6);
 }
 
+TEST(CocosTangents, LeaveFurtherTextureCoordinatesAlone) {
+    Mesh mesh = *makeShape("quad");
+    mesh.hasTangents = false;
+    for (Vertex& vertex : mesh.vertices) vertex.tangent = {5, 6, 7, 8};
+    SceneMaterial material;
+    addTangentsFor(material, mesh);
+    EXPECT_FALSE(mesh.hasTangents);
+    material.normalMap = {.texture = 1, .texcoord = 1};
+    material.emissiveMap = {.texture = 2, .texcoord = 3};
+    addTangentsFor(material, mesh);
+    EXPECT_EQ(mesh.vertices[0].tangent, glm::vec4(5, 6, 7, 8));
+    EXPECT_TRUE(dropFurtherCoordinates(material));
+    EXPECT_EQ(material.normalMap.texture, 1);
+    EXPECT_FALSE(material.emissiveMap);
+    EXPECT_FALSE(dropFurtherCoordinates(material));
+    addTangentsFor(material, mesh);
+    EXPECT_TRUE(mesh.hasTangents);
+    EXPECT_NEAR(glm::length(glm::vec3(mesh.vertices[0].tangent)), 1, 1e-6);
+}
+
 TEST(CocosStandard, GltfMaterialsUseTheWordsOfTheEditorsImporter) {
     SceneMaterial material;
     material.baseColor = {0.5f, 0.25f, 1, 0.5f};
