@@ -126,7 +126,13 @@ void LocalSet::useLight(std::optional<std::size_t> light) {
     }
 }
 
-void LocalSet::bind(Commands& commands, const glm::mat4& world) {
+void LocalSet::beginFrame() {
+    head_ = 0;
+    slices_.clear();
+    light_.reset();  // an error may have kept a stage from doing so
+}
+
+std::uint32_t LocalSet::write(const glm::mat4& world) {
     if (head_ + kSlice > kRingBytes) {
         throw RenderError(fmt::format("a frame draws more than {} objects whose effect reads 'CCLocal'", kSlices),
                           "take the matrices from a_matWorld0 to a_matWorld2 instead: equal meshes are then one draw");
@@ -136,8 +142,20 @@ void LocalSet::bind(Commands& commands, const glm::mat4& world) {
     block.worldIT = glm::transpose(glm::inverse(world));
     ring_.write(std::as_bytes(std::span(&block, 1)), head_);
     const std::uint32_t offset = static_cast<std::uint32_t>(head_);
-    commands.bindSet(2, light_ ? singleSets_[*light_] : set_, std::span(&offset, 1));
     head_ += kSlice;
+    return offset;
+}
+
+void LocalSet::bindSlice(Commands& commands, std::uint32_t offset) {
+    commands.bindSet(2, light_ ? singleSets_[*light_] : set_, std::span(&offset, 1));
+}
+
+void LocalSet::bind(Commands& commands, const glm::mat4& world) { bindSlice(commands, write(world)); }
+
+void LocalSet::bind(Commands& commands, std::uint32_t instance, const glm::mat4& world) {
+    auto slice = slices_.find(instance);
+    if (slice == slices_.end()) slice = slices_.emplace(instance, write(world)).first;
+    bindSlice(commands, slice->second);
 }
 
 }  // namespace crevice

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <unordered_map>
 #include <vector>
 
 #include "flow/CocosBlocks.h"
@@ -24,7 +25,8 @@ public:
              Profile profile = Profile::Crevice);
 
     const SetLayout& setLayout() const { return setLayout_; }
-    void beginFrame() { head_ = 0; }
+    /// Forgets the slices and the light of the frame before.
+    void beginFrame();
     /// The lights that effects see; the GPU must be idle.
     void writeLights(const ForwardLightBlock& lights);
     /// At most kSingleLights; the GPU must be idle.
@@ -33,8 +35,13 @@ public:
     void useLight(std::optional<std::size_t> light);
     /// Binds a new slice with the object's matrices. Throws RenderError when a frame draws too many such objects.
     void bind(Commands& commands, const glm::mat4& world);
+    /// The same for an instance of the scene, by its number: however often it is drawn, it takes one slice a frame.
+    void bind(Commands& commands, std::uint32_t instance, const glm::mat4& world);
 
 private:
+    /// Where the slice with these matrices begins.
+    std::uint32_t write(const glm::mat4& world);
+    void bindSlice(Commands& commands, std::uint32_t offset);
     /// `lights` and its offset: what CCForwardLight shows.
     void writeSlots(DescriptorSet& set, const Buffer& lights, std::uint64_t offset, std::uint64_t bytes);
 
@@ -51,6 +58,7 @@ private:
     std::vector<DescriptorSet> singleSets_;  ///< Made when they are first used.
     std::optional<std::size_t> light_;
     std::uint64_t head_ = 0;
+    std::unordered_map<std::uint32_t, std::uint32_t> slices_;  ///< Of this frame: instance → offset.
 };
 
 }  // namespace crevice

@@ -283,7 +283,7 @@ void StageExecution::drawBatch(const ShaderGpu& shader, const DrawBatch& batch,
     }
     for (std::uint32_t i = batch.firstInstance; i < batch.firstInstance + batch.instanceCount; ++i) {
         if (reach && !meet(*reach, scene_->instances().box(instances[i]))) continue;
-        context_.locals.bind(context_.commands, scene_->scene().instances[instances[i]].world);
+        context_.locals.bind(context_.commands, instances[i], scene_->scene().instances[instances[i]].world);
         context_.commands.drawIndexed(mesh.indexCount, 1, mesh.firstIndex, mesh.vertexOffset, i);
     }
 }
@@ -295,7 +295,8 @@ void StageExecution::drawTwoSided(const ShaderGpu& shader, const DrawBatch& batc
     const Pipeline& near = batch.flipped ? *shader.flipped : *shader.pipeline;
     for (std::uint32_t i = batch.firstInstance; i < batch.firstInstance + batch.instanceCount; ++i) {
         if (reach && !meet(*reach, scene_->instances().box(instances[i]))) continue;
-        if (shader.usesLocal) context_.locals.bind(context_.commands, scene_->scene().instances[instances[i]].world);
+        if (shader.usesLocal)
+            context_.locals.bind(context_.commands, instances[i], scene_->scene().instances[instances[i]].world);
         for (const Pipeline* pipeline : {&far, &near}) {
             context_.commands.bindPipeline(*pipeline);
             context_.commands.drawIndexed(mesh.indexCount, 1, mesh.firstIndex, mesh.vertexOffset, i);

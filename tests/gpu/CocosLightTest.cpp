@@ -136,6 +136,16 @@ protected:
         "    - { vert: 'vs:vert', frag: 'add-fs:frag', phase: forward-add, depthStencilState: { depthFunc: equal, "
         "depthWrite: false }, blendState: { targets: [ { blend: true, blendSrc: one, blendDst: one } ] } }\n";
     static constexpr float kStep = 1.01f / 255;
+    /// Luminance of a sphere times its squared radius over the squared distance: candela over distance².
+    void writeAdded() const {
+        writeLit(
+            "added", std::string("    - { vert: 'vs:vert', frag: 'base-fs:frag' }\n") + kAdding,
+            "vec4(vec3(0.125), 1.0)",
+            "vec4(cc_lightColor[0].rgb * cc_lightColor[0].w * cc_lightSizeRangeAngle[0].x * "
+            "cc_lightSizeRangeAngle[0].x / dot(cc_lightPos[0].xyz - v_world, cc_lightPos[0].xyz - v_world), 0.0)",
+            "  #pragma builtin(local)\n  layout(set = 2, binding = 1) uniform CCForwardLight { vec4 cc_lightPos[1]; "
+            "vec4 cc_lightColor[1]; vec4 cc_lightSizeRangeAngle[1]; vec4 cc_lightDir[1]; };\n");
+    }
 };
 
 TEST_F(CocosLight, ReceiversSeeTheMainLightsMap) {
@@ -173,14 +183,7 @@ TEST_F(CocosLight, ForwardLightsAreAddedOneAtATime) {
     for (const bool v33 : {true, false}) {
         renderer_ = makeRenderer();
         writeEngine(v33);
-        // Luminance of a sphere times its squared radius over the squared distance: candela over distance².
-        writeLit(
-            "added", std::string("    - { vert: 'vs:vert', frag: 'base-fs:frag' }\n") + kAdding,
-            "vec4(vec3(0.125), 1.0)",
-            "vec4(cc_lightColor[0].rgb * cc_lightColor[0].w * cc_lightSizeRangeAngle[0].x * "
-            "cc_lightSizeRangeAngle[0].x / dot(cc_lightPos[0].xyz - v_world, cc_lightPos[0].xyz - v_world), 0.0)",
-            "  #pragma builtin(local)\n  layout(set = 2, binding = 1) uniform CCForwardLight { vec4 cc_lightPos[1]; "
-            "vec4 cc_lightColor[1]; vec4 cc_lightSizeRangeAngle[1]; vec4 cc_lightDir[1]; };\n");
+        writeAdded();
         loadForward(v33);
         Scene scene = darkScene();
         scene.materials[0].effect = MaterialEffect{.effect = "added", .technique = 0, .passes = {}};
@@ -194,6 +197,19 @@ TEST_F(CocosLight, ForwardLightsAreAddedOneAtATime) {
         // Twelve lights, two more than the block of deferred shading has: 11 x 0.125 / 4 from those.
         EXPECT_NEAR(redAt(scene, -2), 0.125 + 11 * 0.125 / 4, 11 * kStep / 2) << v33;
     }
+}
+
+TEST_F(CocosLight, AnObjectTakesOneSliceHoweverManyLightsReachIt) {
+    writeEngine(false);
+    writeAdded();
+    loadForward(false);
+    Scene scene = darkScene();
+    scene.materials[0].effect = MaterialEffect{.effect = "added", .technique = 0, .passes = {}};
+    for (int i = 0; i < 144; ++i) addWall(scene, 0.6f, {0.6f * float(i % 12) - 3.3f, 0.6f * float(i / 12) - 3.3f, 0});
+    // 144 x 128 draws, all in view, are more than the 16384 slices of a frame. Each light adds 1 of 255 to the point
+    // below it.
+    for (int i = 0; i < 128; ++i) scene.lights.push_back(pointLight({0.5625f, 0.4375f, 1}, 1 / 255.0f, 20));
+    EXPECT_NEAR(redAt(scene, 0.5f, 0.5f), 0.125 + 128 / 255.0, kStep);
 }
 
 TEST_F(CocosLight, ASpotLightsMapComesWithItsPass) {
