@@ -140,4 +140,13 @@ const FileIndex& ChunkLibrary::index() {
     return *index_;
 }
 
+std::string_view includedName(std::string_view rest) {
+    if (rest.size() < 3 || (rest[0] != '<' && rest[0] != '"')) return {};
+    const auto end = rest.find(rest[0] == '<' ? '>' : '"', 1);
+    if (end == std::string_view::npos) return {};
+    std::string_view name = trimBlank(rest.substr(1, end - 1));
+    if (name.ends_with(".chunk")) name.remove_suffix(6);
+    return name;
+}
+
 }  // namespace crevice::cocos

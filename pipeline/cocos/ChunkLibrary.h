@@ -58,4 +58,7 @@ private:
     std::size_t bytes_ = 0;
 };
 
+/// The name in what follows `#include`: "<name>" or "\"name\"", without an ending; empty = malformed.
+std::string_view includedName(std::string_view rest);
+
 }  // namespace crevice::cocos

@@ -6,37 +6,14 @@
 #include <algorithm>
 #include <optional>
 #include <unordered_map>
-#include <unordered_set>
 
-#include "cocos/MacroCall.h"
-#include "cocos/MacroTable.h"
+#include "cocos/Choices.h"
 #include "cocos/Pragmas.h"
 
 namespace crevice::cocos {
 namespace {
 
 using Origin = FlatSource::Origin;
-
-/// "<name>" or "\"name\"", without an ending; empty = malformed.
-std::string_view includedName(std::string_view rest) {
-    if (rest.size() < 3 || (rest[0] != '<' && rest[0] != '"')) return {};
-    const auto end = rest.find(rest[0] == '<' ? '>' : '"', 1);
-    if (end == std::string_view::npos) return {};
-    std::string_view name = trimBlank(rest.substr(1, end - 1));
-    if (name.ends_with(".chunk")) name.remove_suffix(6);
-    return name;
-}
-
-/// How a pragma that is written wrongly should look.
-std::string_view pragmaExample(std::string_view rest) {
-    const std::string_view word = leadingName(trimBlank(rest));
-    if (word == "builtin") return "write #pragma builtin(global) or #pragma builtin(local)";
-    if (word == "extension") return "write #pragma extension([NAME, __VERSION__ > 310, require])";
-    if (word == "format") return "write #pragma format(RGBA8)";
-    if (word == "glBinding") return "write #pragma glBinding(0)";
-    if (word.starts_with("subpass")) return "write #pragma subpassColor in NAME";
-    return "write such as: #pragma define-meta NAME range([0, 3]) | options([a, b]) default(a)";
-}
 
 class Flattener {
 public:
@@ -64,7 +41,7 @@ public:
 
 private:
     void emit(const SourceText& source) {
-        seen_.insert(&source);
+        included_.insert(source);
         stack_.push_back(&source);
         const std::uint32_t outer = file_;
         file_ = fileIndex(source.file);
@@ -107,16 +84,23 @@ private:
 
     /// A call of a macro whose definition a condition chooses is written once for each definition so far.
     std::size_t emitChoice(const SourceLines& lines, std::size_t at) {
-        std::string_view name;
-        int open = 0;
-        for (std::size_t i = at; i < lines.source.lines.size() && name.empty() && (i == at || open > 0); ++i) {
-            name = table_->findChoice(lines.text(i), chosen_);
-            for (const char c : lines.text(i)) open += c == '(' ? 1 : c == ')' ? -1 : 0;
+        const auto [name, looked] = findChoice(*table_, lines, at, chosen_, limits_.maxArgument);
+        lookedAhead_ += looked;
+        if (lookedAhead_ > limits_.maxBytes)
+            stop(lines.text(at), lines.origin(at), "the calls of macros reach over too many lines",
+                 "close each call in its own line");
+        if (name.empty() || stopped_) return at;
+        if (chosen_.size() >= MacroTable::kMaxChoices) {
+            stop(lines.text(at), lines.origin(at),
+                 fmt::format("more than {} macros with several definitions in one line", MacroTable::kMaxChoices),
+                 "write them on lines of their own");
+            return at;
         }
-        if (name.empty() || chosen_.size() >= MacroTable::kMaxChoices) return at;
         const std::vector<const MacroDefinition*> choices = choices_[name];
         chosen_.push_back(name);
         std::size_t next = at;
+        const std::size_t included = included_.size();
+        std::vector<const SourceText*> ofCopies;
         for (std::size_t i = 0; i < choices.size() && !stopped_; ++i) {
             const bool only = choices.size() == 1;
             latest_[name] = choices[i];
@@ -124,7 +108,11 @@ private:
                 emitDirective(fmt::format("#{} {} == {}", i == 0 ? "if" : "elif", choiceOf(name), i + 1),
                               lines.origin(at), lines.source);
             next = emitLine(lines, at);
+            if (only) continue;
+            const auto ofCopy = included_.cutTo(included);
+            ofCopies.insert(ofCopies.end(), ofCopy.begin(), ofCopy.end());
         }
+        for (const SourceText* text : ofCopies) included_.insert(*text);
         if (choices.size() > 1) emitDirective("#endif", lines.origin(at), lines.source);
         if (choices.empty()) next = emitLine(lines, at);
         chosen_.pop_back();
@@ -184,7 +172,7 @@ private:
         if (found.source == nullptr)
             return problems_.error(place(line, origin), fmt::format("no chunk or program '{}' to include", name),
                                    found.help);
-        if (reportCycle(*found.source, line, origin) || seen_.contains(found.source)) return;
+        if (reportCycle(*found.source, line, origin) || included_.contains(*found.source)) return;
         if (stack_.size() >= limits_.maxDepth)
             return stop(line, origin, fmt::format("includes are nested deeper than {}", limits_.maxDepth));
         emit(*found.source);
@@ -250,9 +238,11 @@ private:
             if (!active && macro->functionLike)
                 arguments = readArguments(lines, at + used - 1, call + name.size(), limits_.maxArgument);
             if (active || (macro->functionLike && !arguments.found)) {
-                if (arguments.unclosed)
+                if (arguments.unclosed) {
                     problems_.error(where, fmt::format("the call of macro '{}' is not closed", name),
                                     "a ')' is missing");
+                    stopped_ = true;  // The next would look through as many lines again.
+                }
                 keep(call + name.size());
                 continue;
             }
@@ -284,13 +274,16 @@ private:
     bool expand(const MacroDefinition& macro, const std::vector<std::string>& arguments, Origin call,
                 Pending& pending) {
         bool endsInDirective = false;
+        const bool outermost = !expandedFrom_;
+        if (outermost) {
+            expandedFrom_ = call;
+            before_ = {expansions_, written_};
+        }
         if (++expansions_ > limits_.maxExpansions || active_.size() >= limits_.maxDepth) {
             stopExpanding(macro);
             return false;
         }
         active_.push_back(macro.name);
-        const bool outermost = !expandedFrom_;
-        if (outermost) expandedFrom_ = call;
         const std::uint32_t file = fileIndex(macro.source->file);
         const bool single = macro.body.size() == 1 && !macro.bearsDirectives;
         BodyLines lines;
@@ -334,15 +327,20 @@ private:
     void stopExpanding(const MacroDefinition& macro) {
         if (stopped_) return;
         stopped_ = true;
+        if (active_.size() < limits_.maxDepth && expansions_ - before_.expansions <= limits_.maxExpansions / 2 &&
+            written_ - before_.written <= limits_.maxBytes / 2)  // It only came last.
+            return problems_.error(callPlace_, "the macros of this stage write more than it can hold",
+                                   "call fewer, or fewer in one line: several definitions multiply the line");
         const std::string_view name = active_.empty() ? std::string_view(macro.name) : active_.front();
         problems_.error(callPlace_, fmt::format("macro '{}' expands without end", name),
                         "macros multiply each other: write out what is meant");
     }
 
-    void stop(std::string_view line, Origin origin, std::string message) {
+    void stop(std::string_view line, Origin origin, std::string message,
+              std::string help = "includes or macros grow without end") {
         if (stopped_) return;
         stopped_ = true;
-        problems_.error(place(line, origin), std::move(message), "includes or macros grow without end");
+        problems_.error(place(line, origin), std::move(message), std::move(help));
     }
 
     SourceLoc placeAt(std::string_view line, std::size_t at, std::size_t length, Origin origin) const {
@@ -373,12 +371,15 @@ private:
     std::unordered_map<std::string_view, const MacroDefinition*> latest_;  ///< As the text has defined them so far.
     std::unordered_map<std::string_view, std::vector<const MacroDefinition*>> choices_;  ///< Likewise, where several.
     std::vector<std::string_view> chosen_;  ///< Whose latest_ the present line has chosen.
-    std::unordered_set<const SourceText*> seen_;
+    IncludedTexts included_;
     std::vector<const SourceText*> stack_;
     std::vector<std::string_view> active_;  ///< Macros being expanded: they are not expanded within themselves.
     std::optional<Origin> expandedFrom_;    ///< The author's call that writes the present lines.
     SourceLoc callPlace_;                   ///< Of that call.
-    std::size_t includes_ = 0, expansions_ = 0, written_ = 0;
+    std::size_t includes_ = 0, expansions_ = 0, written_ = 0, lookedAhead_ = 0;
+    struct {
+        std::size_t expansions = 0, written = 0;
+    } before_;  ///< The counts before that call.
     std::uint32_t file_ = 0;
     bool endedInDirective_ = false;  ///< What the line expanded last ended in.
     bool stopped_ = false;

@@ -69,7 +69,8 @@ void MacroTable::chooseChosen() {
             if (!expanded_.contains(macro->name)) continue;
             auto& own = leadsTo_[macro->name];
             for (const auto& part : macro->body)
-                for (auto name = findChoice(part.text, own); !name.empty() && own.size() < kMaxChoices;
+                for (auto name = findChoice(part.text, own);
+                     !name.empty() && own.size() <= kMaxChoices;  // one too many is seen
                      name = findChoice(part.text, own)) {
                     own.push_back(name);
                     grown = true;

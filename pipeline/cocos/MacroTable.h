@@ -30,6 +30,7 @@ public:
     const MacroDefinition* find(std::string_view name) const;
     /// True for an expanded name with definitions that differ: a condition chooses between them when the shader runs.
     bool isChosen(std::string_view name) const { return chosen_.contains(name); }
+    bool hasChoices() const { return !chosen_.empty(); }
     /// The first such name that `text` calls, also through other macros, and that `known` does not have; else empty.
     std::string_view findChoice(std::string_view text, const std::vector<std::string_view>& known) const;
     /// Where the next name to be expanded stands in a line of code, from `from` on; npos = nowhere.

@@ -184,4 +184,14 @@ Pragma readPragma(std::string_view rest) {
     return pragma;
 }
 
+std::string_view pragmaExample(std::string_view rest) {
+    const std::string_view word = leadingName(trimBlank(rest));
+    if (word == "builtin") return "write #pragma builtin(global) or #pragma builtin(local)";
+    if (word == "extension") return "write #pragma extension([NAME, __VERSION__ > 310, require])";
+    if (word == "format") return "write #pragma format(RGBA8)";
+    if (word == "glBinding") return "write #pragma glBinding(0)";
+    if (word.starts_with("subpass")) return "write #pragma subpassColor in NAME";
+    return "write such as: #pragma define-meta NAME range([0, 3]) | options([a, b]) default(a)";
+}
+
 }  // namespace crevice::cocos

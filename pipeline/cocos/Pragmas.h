@@ -20,4 +20,7 @@ struct Pragma {
 /// `rest` is what follows `#pragma`.
 Pragma readPragma(std::string_view rest);
 
+/// How a pragma that is written wrongly should look: a help.
+std::string_view pragmaExample(std::string_view rest);
+
 }  // namespace crevice::cocos

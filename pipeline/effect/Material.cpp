@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <stdexcept>
 
 #include "core/Text.h"
 
@@ -253,11 +254,16 @@ bool Material::findPlace(const EffectProperty& property, Place& place, Problems&
         }
         const auto block = std::find_if(blocks_.begin(), blocks_.end(),
                                         [&](const MaterialBlock& b) { return b.slot == resource.slot; });
+        const std::size_t stride = array ? member->arrayStride : 0;
+        const std::uint32_t elements = std::max(1u, member->arrayCount);
+        const std::size_t offset = member->offset + static_cast<std::size_t>(start) * sizeof(float);
+        if (offset + (elements - 1) * stride + count * sizeof(float) > block->bytes.size())
+            throw std::logic_error(fmt::format("member '{}' reaches over the end of its block", uniform));
         place = {.block = static_cast<std::size_t>(block - blocks_.begin()),
-                 .offset = member->offset + static_cast<std::size_t>(start) * sizeof(float),
-                 .stride = array ? member->size / member->arrayCount : 0,
+                 .offset = offset,
+                 .stride = stride,
                  .components = count,
-                 .elements = std::max(1u, member->arrayCount),
+                 .elements = elements,
                  .integer = shape.integer};
         return true;
     }

@@ -153,7 +153,15 @@ private:
             out.offset = compiler_.type_struct_member_offset(type, i);
             out.size = static_cast<std::uint32_t>(compiler_.get_declared_struct_member_size(type, i));
             out.type = typeName(member);
-            out.arrayCount = member.array.empty() ? 0 : member.array.back();
+            if (member.array.empty()) continue;
+            out.arrayStride = compiler_.type_struct_member_array_stride(type, i);
+            if (isPlainArray(member, kind))
+                out.arrayCount = member.array.back();
+            else
+                problems_.error(
+                    block.where,
+                    fmt::format("member '{}' of '{}' is an array that Crevice cannot fill", out.name, block.name),
+                    "give it one dimension, with a size that is no specialization constant");
         }
         if (kind == ResourceKind::StorageBuffer) {
             const sc::Bitset flags = compiler_.get_buffer_block_flags(r.id);
@@ -161,6 +169,13 @@ private:
         } else {
             block.readOnly = true;
         }
+    }
+
+    /// A size may be the id of a constant that is chosen later; materials write uniform blocks one element at a time.
+    static bool isPlainArray(const sc::SPIRType& member, ResourceKind kind) {
+        const auto& literal = member.array_size_literal;
+        return std::all_of(literal.begin(), literal.end(), [](bool one) { return one; }) &&
+               (member.array.size() == 1 || kind != ResourceKind::UniformBlock);
     }
 
     void addSampler(const sc::Resource& r) {

@@ -7,7 +7,6 @@
 #include <array>
 #include <cctype>
 #include <span>
-#include <type_traits>
 
 #include "core/StateNames.h"
 #include "core/Text.h"
@@ -63,9 +62,9 @@ void readEnum(KeyReader& reader, const char* key, const std::array<Named<Enum>, 
     const Value* value = reader.find(key);
     if (value == nullptr || value->isNull()) return;
     if (!value->isString()) {
-        // Cocos' own files may hold the number behind the name: our values are Cocos' numbers, but for the topology.
+        // Cocos' own files may hold the number behind the name.
         const bool known = !reader.strict() && value->isInteger() && value->integer() >= 0 && value->integer() < int(N);
-        if (known && !std::is_same_v<Enum, Topology>)
+        if (known)
             out = names[std::size_t(value->integer())].value;
         else if (value->isNumber() && !reader.strict())
             reader.problems().error(value->where(), fmt::format("{} is no value for '{}'", value->toJson(-1), key),
@@ -237,24 +236,27 @@ void readBlend(KeyReader& reader, RenderState& state) {
     reader.finish();
 }
 
-/// Cocos' other primitives, which are never drawn by its own effects.
-constexpr const char* kOtherPrimitives[] = {"line_loop",
-                                            "line_list_adjacency",
-                                            "line_strip_adjacency",
-                                            "iso_line_list",
-                                            "triangle_list_adjacency",
-                                            "triangle_strip_adjacency",
-                                            "triangle_patch_adjacency",
-                                            "quad_patch_list"};
+/// The name of a primitive in Cocos' own files, which may hold its number; empty when there is none to look up.
+std::string primitiveName(const Value& value) {
+    if (value.isString()) return lower(value.string());
+    const bool known = value.isInteger() && value.integer() >= 0 && value.integer() < int(kTopologyNames.size());
+    return known ? kTopologyNames[std::size_t(value.integer())] : "";
+}
 
 void readTopology(KeyReader& pass, Topology& out) {
     const Value* value = pass.find("primitive");
-    const bool other = value != nullptr && !pass.strict() && value->isString() &&
-                       std::any_of(std::begin(kOtherPrimitives), std::end(kOtherPrimitives),
-                                   [&](const char* name) { return lower(value->string()) == name; });
-    if (other)
-        pass.problems().warning(value->where(), fmt::format("primitive '{}' is not drawn by Crevice", value->string()),
+    if (value == nullptr || pass.strict()) return readEnum(pass, "primitive", kTopologies, out);
+    const std::string word = primitiveName(*value);
+    const auto drawn =
+        std::find_if(kTopologies.begin(), kTopologies.end(), [&](const auto& named) { return word == named.name; });
+    if (drawn != kTopologies.end())
+        out = drawn->value;
+    else if (std::find(kTopologyNames.begin(), kTopologyNames.end(), word) != kTopologyNames.end())
+        pass.problems().warning(value->where(), fmt::format("primitive '{}' is not drawn by Crevice", word),
                                 "the pass is read as one of triangles");
+    else if (value->isNumber())
+        pass.problems().error(value->where(), fmt::format("{} is no value for 'primitive'", value->toJson(-1)),
+                              "numbers count these from 0: " + join({kTopologyNames.begin(), kTopologyNames.end()}));
     else
         readEnum(pass, "primitive", kTopologies, out);
 }

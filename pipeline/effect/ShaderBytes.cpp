@@ -93,7 +93,7 @@ void resource(Io& io, Resource& r) {
     io(r.name), io(r.kind), io(r.slot.set), io(r.slot.binding), io(r.count), io(r.stages);
     io(r.active), io(r.cube), io(r.readOnly), io(r.writeOnly), io(r.size);
     io.list(r.members, [](Io& inner, auto& m) {
-        inner(m.name), inner(m.offset), inner(m.size), inner(m.type), inner(m.arrayCount);
+        inner(m.name), inner(m.offset), inner(m.size), inner(m.type), inner(m.arrayCount), inner(m.arrayStride);
     });
     place(io, r.where);
     place(io, r.firstUse);

@@ -32,10 +32,11 @@ enum class ResourceKind : std::uint8_t { UniformBlock, CombinedSampler, StorageB
 
 struct BlockMember {
     std::string name;
-    std::uint32_t offset = 0;      ///< Bytes, std140 / std430.
-    std::uint32_t size = 0;        ///< Bytes of the whole member.
-    std::string type;              ///< "float", "vec4", "mat4", "int"…
-    std::uint32_t arrayCount = 0;  ///< 0 = not an array.
+    std::uint32_t offset = 0;       ///< Bytes, std140 / std430.
+    std::uint32_t size = 0;         ///< Bytes of the whole member.
+    std::string type;               ///< "float", "vec4", "mat4", "int"…
+    std::uint32_t arrayCount = 0;   ///< 0 = not an array, or one without an end.
+    std::uint32_t arrayStride = 0;  ///< Bytes from one element to the next; 0 = not an array.
 };
 
 struct ShaderResource {

@@ -11,6 +11,7 @@ using testing::Contains;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::Not;
+using testing::UnorderedElementsAre;
 
 TEST(CocosMacro, PragmaDefineHoldsForTheWholeStage) {
     CocosBench bench;
@@ -75,21 +76,80 @@ TEST(CocosMacro, DefinitionsThatAConditionChoosesAreAllWritten) {
     EXPECT_THAT(inputsOf(bench, {{"USE_NONE", "1"}}), ElementsAre());
 }
 
+/// A macro A(name) … that declares a vec4 where USE_A is defined, else a vec2.
+std::string chosenDeclaration(char letter) {
+    const std::string name(1, letter);
+    return "#if USE_" + name + "\n#define " + name + "(x) in vec4 x;\n#else\n#define " + name +
+           "(x) in vec2 x;\n#endif\n";
+}
+
 TEST(CocosMacro, OneLineMayCallSeveralChosenMacros) {
     CocosBench bench;
-    const auto chosen = [](const std::string& name) {
-        return "#if USE_" + name + "\n#define " + name + "(x) \\\n#if 1 \\\nx += 1.0; \\\n#endif\n#else\n#define " +
-               name + "(x) x -= 1.0;\n#endif\n";
-    };
-    std::string calls, definitions;
-    for (char letter = 'A'; letter < 'L'; ++letter) {  // more than are followed
-        definitions += chosen(std::string(1, letter));
-        if (letter < 'D') calls += std::string(1, letter) + "(f) ";
+    std::string definitions;
+    for (const char letter : {'A', 'B', 'C'}) definitions += chosenDeclaration(letter);
+    bench.effect(
+        definitions + "A(a_a) B(\n  a_b) C(a_c)\nvoid main() { gl_Position = a_a.xyxy + a_b.xyxy + a_c.xyxy; }\n",
+        "layout(location = 0) out vec4 color;\nvoid main() { color = vec4(1.0); }\n");
+    EXPECT_THAT(inputsOf(bench, {}), ElementsAre("a_a vec2", "a_b vec2", "a_c vec2"));
+    EXPECT_THAT(inputsOf(bench, {{"USE_B", "1"}}), ElementsAre("a_a vec2", "a_b vec4", "a_c vec2"));
+    EXPECT_THAT(inputsOf(bench, {{"USE_A", "1"}, {"USE_C", "1"}}), ElementsAre("a_a vec4", "a_b vec2", "a_c vec4"));
+}
+
+TEST(CocosMacro, NineChosenMacrosInOneLineAreTooMany) {
+    CocosBench bench;
+    std::string definitions, calls;
+    for (char letter = 'A'; letter < 'I'; ++letter) {
+        definitions += chosenDeclaration(letter);
+        calls += std::string(1, letter) + "(v_" + std::string(1, letter) + ") ";
     }
-    bench.fragment(definitions + "layout(location = 0) out vec4 color;\nvoid main() { float f = 0.0; " + calls +
-                   "\n A(f) B(f) C(f) D(f) E(f) F(f) G(f) H(f) I(f) J(f) K(f)\ncolor = vec4(f); }\n");
-    EXPECT_NO_THROW(bench.compile({{"USE_B", "1"}}));
-    EXPECT_NO_THROW(bench.compile({{"USE_A", "1"}, {"USE_C", "1"}}));
+    bench.fragment(definitions + calls + "\n");
+    EXPECT_EQ(bench.problem().message, "");
+    const std::string ninth = "more than 8 macros with several definitions in one line";
+    bench.fragment(definitions + chosenDeclaration('I') + calls + "I(v_I)\n");
+    EXPECT_EQ(bench.problem().message, ninth);
+    EXPECT_EQ(bench.problem().where.line, 11 + 9 * 5);
+    bench.fragment(definitions + chosenDeclaration('I') + "#define ALL " + calls + "I(v_I)\nALL\n");
+    EXPECT_EQ(bench.problem().message, ninth);
+    std::string many;  // 256 copies of eight calls each, six times: more than are written out, and none without end
+    for (int i = 0; i < 6; ++i) many += calls + "\n";
+    bench.fragment(definitions + many);
+    EXPECT_EQ(bench.problem().message, "the macros of this stage write more than it can hold");
+}
+
+TEST(CocosMacro, EachCopyOfACallHasItsIncludes) {
+    CocosBench bench;
+    bench.chunk("kind", "in vec2 a_uv;\n");
+    bench.effect(
+        "#if USE_A\n#define TAKE() \\\n#include <kind> \\\nin vec4 a_more;\n#else\n#define TAKE() \\\n"
+        "#include <kind> \\\nin vec2 a_more;\n#endif\nTAKE()\n#include <kind>\n"
+        "void main() { gl_Position = a_uv.xyxy + a_more.xyxy; }\n",
+        "layout(location = 0) out vec4 color;\nvoid main() { color = vec4(1.0); }\n");
+    EXPECT_THAT(inputsOf(bench, {}), UnorderedElementsAre("a_uv vec2", "a_more vec2"));
+    EXPECT_THAT(inputsOf(bench, {{"USE_A", "1"}}), UnorderedElementsAre("a_uv vec2", "a_more vec4"));
+}
+
+// Bounded by what is read, not by time: each line would look through all that follow.
+TEST(CocosMacro, ManyOpenCallsAreNotEachLookedThrough) {
+    CocosBench bench;
+    const std::string two = chosenDeclaration('A');
+    std::string plain, open, broken;
+    for (int i = 0; i < 100'000; ++i) {
+        plain += "PLAIN (\n";
+        open += "A(\n";
+        broken += "PLAIN(\n#if 1\n#endif\n";
+    }
+    const std::string object = "#define PLAIN \\\n#if 1 \\\nfloat f \\\n#endif\n";
+    bench.fragment(object + plain);
+    EXPECT_THAT(bench.problem().message, HasSubstr("write more than it can hold"));
+    bench.fragment(two + object + plain);
+    EXPECT_THAT(bench.problem().message, HasSubstr("reach over too many lines"));
+    bench.fragment(two + object + broken);
+    EXPECT_THAT(bench.problem().message, HasSubstr("write more than it can hold"));
+    bench.fragment(two + open);
+    EXPECT_EQ(bench.problem().message, "the call of macro 'A' is not closed");
+    Problems problems;
+    bench.flatten(problems);
+    EXPECT_EQ(problems.all().size(), 1u);
 }
 
 TEST(CocosMacro, PragmaAndTextMayDefineANameInTurns) {

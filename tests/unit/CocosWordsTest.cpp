@@ -93,6 +93,21 @@ TEST(CocosWords, PrimitivesThatAreDrawn) {
         EXPECT_EQ(stateOf("      primitive: " + std::string(other) + "\n").topology, Topology::TriangleList) << other;
 }
 
+/// A place in the list of names is the number.
+TEST(CocosWords, PrimitivesMayBeNumbers) {
+    EXPECT_EQ(stateOf("      primitive: 0\n").topology, Topology::PointList);
+    EXPECT_EQ(stateOf("      primitive: 1\n").topology, Topology::LineList);
+    EXPECT_EQ(stateOf("      primitive: 2\n").topology, Topology::LineStrip);
+    EXPECT_EQ(stateOf("      primitive: 3\n").topology, Topology::TriangleList);  // line_loop is not drawn
+    EXPECT_EQ(stateOf("      primitive: 7\n").topology, Topology::TriangleList);
+    EXPECT_EQ(stateOf("      primitive: 8\n").topology, Topology::TriangleStrip);
+    EXPECT_EQ(stateOf("      primitive: 9\n").topology, Topology::TriangleFan);
+    EXPECT_EQ(stateOf("      primitive: 13\n").topology, Topology::TriangleList);
+    EXPECT_THROW(stateOf("      primitive: 14\n"), Error);
+    EXPECT_THROW(stateOf("      primitive: -1\n"), Error);
+    EXPECT_THROW(stateOf("      primitive: 1.5\n"), Error);
+}
+
 TEST(CocosWords, NumbersBeyondATableAreErrors) {
     EXPECT_THROW(stateOf("      depthStencilState: { depthFunc: 8 }\n"), Error);
     EXPECT_THROW(stateOf("      rasterizerState: { cullMode: -1 }\n"), Error);

@@ -183,5 +183,22 @@ TEST(MaterialProperties, ThatDoNotFitTheirUniform) {
     }
 }
 
+TEST(MaterialProperties, ArraysWhoseSizeIsNotPlainAreRefused) {
+    const auto problemOf = [](const std::string& list, const std::string& use) {
+        EffectBench bench;
+        bench.fullscreen(
+            "layout(location = 0) out vec4 o;\nlayout(constant_id = 0) const int N = 4;\nuniform Block { " + list +
+            " float last; };\nvoid main() { o = vec4(last) + " + use + "; }\n");
+        return bench.problem();
+    };
+    EXPECT_EQ(problemOf("vec4 list[4];", "list[1]").message, "");
+    for (const auto& [list, use] : {std::pair("vec4 list[N];", "list[1]"), std::pair("vec4 list[3][2];", "list[1][1]"),
+                                    std::pair("vec4 list[N][2];", "list[1][1]")}) {
+        const Problem problem = problemOf(list, use);
+        EXPECT_EQ(problem.message, "member 'list' of 'Block' is an array that Crevice cannot fill") << list;
+        EXPECT_EQ(problem.where.line, 14);
+    }
+}
+
 }  // namespace
 }  // namespace crevice
