@@ -127,6 +127,22 @@ TEST_F(AoBackFaces, ThinBoxDarkensTheWallBehindLessAndThickOneAsMuch) {
     EXPECT_GT(thick, 1.1 * constant);
 }
 
+TEST_F(AoBackFaces, KnownBacksLeaveNothingToTheConstantThickness) {
+    // Whether things of unknown depth are thin or partly without a back (from a thickness of 0.25 on) is nothing to a
+    // bar of known depth.
+    std::vector<double> darkness;
+    for (const char* thickness : {"0.25", "0.5"}) {
+        loadBackFaces(1, {{"quality", "ultra"}, {"thickness", thickness}});
+        Scene scene = oneSidedScene();
+        addBox(scene, {0, 0, -(kWall - 0.4f)}, {0.3f, 20, 0.8f});
+        addSquare(scene, {0, 0, -kWall}, {0, 0, 1}, 20);
+        renderer_->setScene(std::move(scene));
+        darkness.push_back(1 - map(viewOf(straightAhead(), kWidth, kHeight)).mean());
+    }
+    EXPECT_GT(darkness[0], 0.02);
+    EXPECT_NEAR(darkness[1], darkness[0], 0.05 * darkness[0]);
+}
+
 TEST_F(AoBackFaces, WithoutBacksTheConstantThicknessStands) {
     // Two-sided planes only: no back anywhere, so both maps are the same.
     std::vector<FloatMap> maps;
