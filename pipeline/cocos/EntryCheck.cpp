@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <string>
 #include <vector>
 
@@ -18,14 +17,13 @@ namespace {
 constexpr std::array<std::string_view, 12> kOtherTypes = {"void", "bool",  "int",   "uint", "float", "vec2",
                                                           "vec3", "ivec4", "uvec4", "mat4", "mat3",  "mat2"};
 
-bool isWordPart(char c) { return isNameStart(c) || std::isdigit(static_cast<unsigned char>(c)); }
 bool isBlank(char c) { return c == ' ' || c == '\t' || c == '\n'; }
 
 /// The name in front of a place, over blanks; empty when something else stands there.
 std::string_view nameBefore(std::string_view text, std::size_t at) {
     while (at > 0 && isBlank(text[at - 1])) --at;
     std::size_t begin = at;
-    while (begin > 0 && isWordPart(text[begin - 1])) --begin;
+    while (begin > 0 && isNamePart(text[begin - 1])) --begin;
     return text.substr(begin, at - begin);
 }
 
@@ -39,7 +37,7 @@ Occurrences findFunction(std::string_view text, std::string_view name) {
     Occurrences found;
     for (std::size_t at = text.find(name); at != std::string_view::npos; at = text.find(name, at + name.size())) {
         std::size_t end = at + name.size();
-        if ((at > 0 && isWordPart(text[at - 1])) || (end < text.size() && isWordPart(text[end]))) continue;
+        if ((at > 0 && isNamePart(text[at - 1])) || (end < text.size() && isNamePart(text[end]))) continue;
         found.any = true;
         while (end < text.size() && isBlank(text[end])) ++end;
         const std::string_view type = nameBefore(text, at);

@@ -53,25 +53,20 @@ const Light* shadowedSpot(const Scene& scene) {
 }
 
 std::optional<ShadowView> spotShadowView(const Scene& scene, const Aabb& bounds) {
-    int punctual = 0;
-    for (const Light& light : scene.lights) {
-        if (&light == mainLight(scene)) continue;
-        if (light.type == LightType::Spot && light.castsShadow) {
-            ShadowView result;
-            const float reach =
-                glm::length(glm::max(glm::abs(bounds.max - light.position), glm::abs(bounds.min - light.position)));
-            result.far = light.range > 0 ? std::min(light.range, reach) : reach;
-            result.far = std::max(result.far, 1e-5f);
-            result.near = result.far * 0.005f;
-            result.view = glm::lookAt(light.position, light.position + light.direction, anyUp(light.direction));
-            const float angle = std::min(2.0f * light.outerAngle + 0.02f, 3.0f);
-            result.projection = flipped(glm::perspectiveRH_ZO(angle, 1.0f, result.near, result.far));
-            result.punctualIndex = punctual;
-            return result;
-        }
-        ++punctual;
-    }
-    return std::nullopt;
+    const Light* spot = shadowedSpot(scene);
+    if (!spot) return std::nullopt;
+    ShadowView result;
+    const float reach =
+        glm::length(glm::max(glm::abs(bounds.max - spot->position), glm::abs(bounds.min - spot->position)));
+    result.far = std::max(spot->range > 0 ? std::min(spot->range, reach) : reach, 1e-5f);
+    result.near = result.far * 0.005f;
+    result.view = glm::lookAt(spot->position, spot->position + spot->direction, anyUp(spot->direction));
+    const float angle = std::min(2.0f * spot->outerAngle + 0.02f, 3.0f);
+    result.projection = flipped(glm::perspectiveRH_ZO(angle, 1.0f, result.near, result.far));
+    const Light* main = mainLight(scene);
+    const Light* first = scene.lights.data();
+    result.punctualIndex = int(std::count_if(first, spot, [&](const Light& light) { return &light != main; }));
+    return result;
 }
 
 }  // namespace crevice

@@ -2,12 +2,12 @@
 #include "scene/Camera.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 
 #include <glm/gtc/matrix_transform.hpp>
 
+#include "scene/Framing.h"
 #include "scene/Scene.h"
 
 namespace crevice {
@@ -18,13 +18,6 @@ constexpr float kDefaultNear = 0.1f;
 constexpr float kDefaultFarPerNear = 1e4f;
 constexpr float kMaxFarPerNear = 4000.0f;  // 32-bit depth then resolves 1/4000 of the largest distance
 constexpr float kDepthMargin = 0.01f;      // of the depth range on either side
-
-std::array<glm::vec3, 8> corners(const Aabb& box) {
-    std::array<glm::vec3, 8> points;
-    for (int i = 0; i < 8; ++i)
-        points[i] = {i & 1 ? box.max.x : box.min.x, i & 2 ? box.max.y : box.min.y, i & 4 ? box.max.z : box.min.z};
-    return points;
-}
 
 }  // namespace
 

@@ -2,7 +2,6 @@
 #include "scene/Framing.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 
@@ -19,13 +18,6 @@ struct Axes {
     glm::vec3 right = glm::normalize(glm::cross(glm::vec3(0, 1, 0), backward));
     glm::vec3 up = glm::cross(backward, right);
 };
-
-std::array<glm::vec3, 8> corners(const Aabb& box) {
-    std::array<glm::vec3, 8> points;
-    for (std::size_t i = 0; i < 8; ++i)
-        points[i] = {i & 1 ? box.max.x : box.min.x, i & 2 ? box.max.y : box.min.y, i & 4 ? box.max.z : box.min.z};
-    return points;
-}
 
 /// The farthest points along directions between "towards the viewer" and each side of the picture. What bounds the
 /// distance at a field of view is the farthest along (towards + sideways / tan): the directions stand for all of those.
@@ -137,6 +129,13 @@ Camera cameraAt(const Stand& stand, const Aabb& bounds, float fovY) {
 }
 
 }  // namespace
+
+std::array<glm::vec3, 8> corners(const Aabb& box) {
+    std::array<glm::vec3, 8> points;
+    for (std::size_t i = 0; i < 8; ++i)
+        points[i] = {i & 1 ? box.max.x : box.min.x, i & 2 ? box.max.y : box.min.y, i & 4 ? box.max.z : box.min.z};
+    return points;
+}
 
 std::vector<glm::vec3> outlineOf(const Scene& scene) {
     const bool byVertices = verticesToDraw(scene) <= kMostVertices;

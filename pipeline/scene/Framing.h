@@ -2,6 +2,7 @@
 // middle.
 #pragma once
 
+#include <array>
 #include <span>
 #include <vector>
 
@@ -11,6 +12,8 @@
 #include "scene/Scene.h"
 
 namespace crevice {
+
+std::array<glm::vec3, 8> corners(const Aabb& box);
 
 /// A few points in world space, such that a view from the default direction that holds them holds the scene, but for 2
 /// % of its size. Of scenes with more than 500,000 vertices to draw, and of meshes without vertices, the corners of

@@ -19,8 +19,8 @@ struct VariantList {
     bool alone = false;  ///< Too many to combine: the first variant has all defaults, the others differ by one value.
 };
 
-/// Values of the macros to compile a pass with; those in `fixed` keep their value. Bools take 0 and 1, numbers both
-/// ends of their range, strings each of their options.
+/// Values of the macros to compile a pass with; those in `fixed` keep their value. Bools take 0 and 1, strings each of
+/// their options, numbers both ends of their range (alone, all of a short one).
 VariantList enumerateVariants(const std::vector<DefineInfo>& infos, const Defines& fixed);
 
 }  // namespace crevice

@@ -23,7 +23,8 @@ std::vector<MissingName> missingNames(const Error& error);
 /// Looks the uses up in the pass' flattened stages, and declarations that other macros would bring in.
 void explainMissing(std::vector<MissingName>& names, const std::vector<cocos::StageText>& stages);
 
-/// "a_matWorld0 with USE_INSTANCING (declared nowhere), v_uv1"; only names when nothing is known of them.
+/// "a_matWorld0 with USE_INSTANCING (but skin.chunk:12 with USE_SKINNING); v_uv1": the macros of the use, and where
+/// others would declare it; only names when nothing is known of them.
 std::string missingText(const std::vector<MissingName>& names);
 
 }  // namespace crevice
