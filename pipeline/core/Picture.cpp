@@ -45,8 +45,10 @@ std::optional<PictureHeader> readPngHeader(std::span<const std::byte> bytes) {
 
 // ITU-T T.81, B.2.2: a frame header SOF0 … SOF15 (not the tables 4, 8, 12) holds height and width.
 std::optional<PictureHeader> readJpegHeader(std::span<const std::byte> bytes) {
+    constexpr int kMaxSegments = 2000;  // ICC profiles have up to 255
     if (!startsWith(bytes, "\xff\xd8\xff")) return std::nullopt;
-    for (std::size_t at = 2; at + 9 <= bytes.size();) {
+    std::size_t at = 2;
+    for (int segment = 0; segment < kMaxSegments && at + 9 <= bytes.size(); ++segment) {
         if (bytes[at] != std::byte{0xff}) return std::nullopt;
         const unsigned marker = std::to_integer<unsigned>(bytes[at + 1]);
         if (marker == 0xff) {

@@ -28,21 +28,6 @@ std::size_t targetCount(const File& file, int node) {
     return file.model.meshes[std::size_t(mesh)].primitives[0].targets.size();
 }
 
-/// One channel's key frames.
-struct Track {
-    std::vector<float> times;
-    Floats values;
-    std::size_t width = 0;  ///< Numbers of one value.
-    enum { Linear, Step, Cubic } interpolation = Linear;
-
-    /// The value of a key; of cubic splines the middle one of three.
-    const float* value(std::size_t key) const {
-        return values.values.data() + (interpolation == Cubic ? 3 * key + 1 : key) * width;
-    }
-    const float* inTangent(std::size_t key) const { return values.values.data() + 3 * key * width; }
-    const float* outTangent(std::size_t key) const { return values.values.data() + (3 * key + 2) * width; }
-};
-
 struct Channel {
     int node = -1;
     Path path = Path::Other;
@@ -90,23 +75,6 @@ std::string refuse(const File& file, const Channel& channel) {
     return {};
 }
 
-Track readTrack(const File& file, std::size_t animation, const Channel& channel) {
-    if (const std::string why = refuse(file, channel); !why.empty()) file.fail("animations", animation, why);
-    Track track;
-    track.times = readFloats(file, channel.input).values;
-    track.values = readFloats(file, channel.output);
-    track.interpolation = channel.interpolation == "STEP"          ? Track::Step
-                          : channel.interpolation == "CUBICSPLINE" ? Track::Cubic
-                                                                   : Track::Linear;
-    const std::size_t values = track.times.size() * (track.interpolation == Track::Cubic ? 3 : 1);
-    track.width = track.values.values.size() / values;
-    for (std::size_t i = 0; i < track.times.size(); ++i)
-        if (track.times[i] < 0 || (i > 0 && track.times[i] <= track.times[i - 1]))
-            file.fail("animations", animation,
-                      fmt::format("time {} of key {} is below 0 or not above the one before", track.times[i], i));
-    return track;
-}
-
 glm::quat quatOf(const float* v) {
     const glm::quat q(v[3], v[0], v[1], v[2]);
     const float length = glm::length(q);
@@ -115,40 +83,94 @@ glm::quat quatOf(const float* v) {
 
 std::vector<float> fromQuat(const glm::quat& q) { return {q.x, q.y, q.z, q.w}; }
 
-// Appendix C.5: Hermite splines; tangents count in units per second.
-std::vector<float> cubic(const Track& track, std::size_t key, float t, float seconds) {
+// Appendix C.5: Hermite splines; tangents count in units per second. `keys`: in-tangent, value and out-tangent of two.
+std::vector<float> cubic(const float* keys, std::size_t width, float t, float seconds) {
     const float t2 = t * t, t3 = t2 * t;
-    std::vector<float> result(track.width);
-    for (std::size_t i = 0; i < track.width; ++i)
-        result[i] = (2 * t3 - 3 * t2 + 1) * track.value(key)[i] +
-                    seconds * (t3 - 2 * t2 + t) * track.outTangent(key)[i] +
-                    (3 * t2 - 2 * t3) * track.value(key + 1)[i] + seconds * (t3 - t2) * track.inTangent(key + 1)[i];
+    const float *from = keys + width, *out = keys + 2 * width, *in = keys + 3 * width, *to = keys + 4 * width;
+    std::vector<float> result(width);
+    for (std::size_t i = 0; i < width; ++i)
+        result[i] = (2 * t3 - 3 * t2 + 1) * from[i] + seconds * (t3 - 2 * t2 + t) * out[i] + (3 * t2 - 2 * t3) * to[i] +
+                    seconds * (t3 - t2) * in[i];
     return result;
 }
 
-std::vector<float> sample(const Track& track, float time, bool rotation) {
-    const auto copy = [&](std::size_t key) {
-        return std::vector<float>(track.value(key), track.value(key) + track.width);
-    };
-    // Before the first and after the last key its value holds.
-    const auto after = std::upper_bound(track.times.begin(), track.times.end(), time);
-    if (after == track.times.begin()) return copy(0);
-    const std::size_t key = std::size_t(after - track.times.begin()) - 1;
-    if (after == track.times.end() || track.interpolation == Track::Step) return copy(key);
-    const float seconds = track.times[key + 1] - track.times[key];
-    const float t = (time - track.times[key]) / seconds;
-    if (track.interpolation == Track::Cubic) return cubic(track, key, t, seconds);
+std::vector<float> linear(const float* keys, std::size_t width, float t, bool rotation) {
     // glm::slerp takes the shorter way, as appendix C.4 asks.
-    if (rotation) return fromQuat(glm::slerp(quatOf(track.value(key)), quatOf(track.value(key + 1)), t));
-    std::vector<float> result(track.width);
-    for (std::size_t i = 0; i < track.width; ++i)
-        result[i] = (1 - t) * track.value(key)[i] + t * track.value(key + 1)[i];
+    if (rotation) return fromQuat(glm::slerp(quatOf(keys), quatOf(keys + width), t));
+    std::vector<float> result(width);
+    for (std::size_t i = 0; i < width; ++i) result[i] = (1 - t) * keys[i] + t * keys[width + i];
     return result;
 }
 
-void pose(const File& file, std::size_t animation, const Channel& channel, float time, Pose& pose) {
-    const Track track = readTrack(file, animation, channel);
-    const std::vector<float> v = sample(track, time, channel.path == Path::Rotation);
+/// Plays one animation at one time. Accessors that many channels share are checked once; of each channel the keys
+/// around the time are read.
+class Player {
+public:
+    Player(const File& file, std::size_t animation) : file_(file), animation_(animation) {}
+
+    std::vector<float> sample(const Channel& channel, float time) {
+        if (const std::string why = refuse(file_, channel); !why.empty()) file_.fail("animations", animation_, why);
+        const std::size_t keys = accessorOf(channel.input).count;
+        const bool isCubic = channel.interpolation == "CUBICSPLINE";
+        const std::size_t elements = accessorOf(channel.output).count / keys;  // of one key
+        const std::size_t width = channel.path == Path::Weights ? elements / (isCubic ? 3 : 1)
+                                                                : std::size_t(accessorOf(channel.output).components());
+        checkTimes(channel.input);
+        checkOutput(channel.output);
+        file_.spend(width);
+        // Before the first and after the last key its value holds.
+        const std::size_t after = firstAfter(channel.input, time, keys);
+        const std::size_t key = after == 0 ? 0 : after - 1;
+        const bool holds = after == 0 || after == keys || channel.interpolation == "STEP";
+        const Floats values = readSomeFloats(file_, channel.output, key * elements, elements * (holds ? 1 : 2));
+        const float* first = values.values.data();
+        if (holds && isCubic) first += width;
+        if (holds) return {first, first + width};
+        const float start = timeOf(channel.input, key), seconds = timeOf(channel.input, key + 1) - start;
+        const float t = (time - start) / seconds;
+        return isCubic ? cubic(first, width, t, seconds) : linear(first, width, t, channel.path == Path::Rotation);
+    }
+
+private:
+    const AccessorPart& accessorOf(int index) const { return file_.model.accessors[std::size_t(index)]; }
+    float timeOf(int input, std::size_t key) const { return readSomeFloats(file_, input, key, 1).values[0]; }
+
+    void checkTimes(int input) {
+        if (!checked_.insert({input, true}).second) return;
+        file_.spend(accessorOf(input).count);
+        const std::vector<float> times = readFloats(file_, input).values;
+        for (std::size_t i = 0; i < times.size(); ++i)
+            if (times[i] < 0 || (i > 0 && times[i] <= times[i - 1]))
+                file_.fail("animations", animation_,
+                           fmt::format("time {} of key {} is below 0 or not above the one before", times[i], i));
+    }
+
+    void checkOutput(int output) {
+        if (!checked_.insert({output, false}).second) return;
+        file_.spend(accessorOf(output).count);
+        readFloats(file_, output);
+    }
+
+    // The first key later than a time.
+    std::size_t firstAfter(int input, float time, std::size_t keys) const {
+        std::size_t low = 0, high = keys;
+        while (low < high) {
+            const std::size_t middle = low + (high - low) / 2;
+            if (timeOf(input, middle) <= time)
+                low = middle + 1;
+            else
+                high = middle;
+        }
+        return low;
+    }
+
+    const File& file_;
+    std::size_t animation_;
+    std::set<std::pair<int, bool>> checked_;  ///< Accessors, and whether as times.
+};
+
+void pose(Player& player, const Channel& channel, float time, Pose& pose) {
+    const std::vector<float> v = player.sample(channel, time);
     switch (channel.path) {
         case Path::Translation:
             pose.translations[channel.node] = {v[0], v[1], v[2]};
@@ -194,9 +216,10 @@ Pose readPose(const File& file) {
     if (options.animation.empty() && !options.time) return result;
     const std::size_t animation =
         std::size_t(findNamed(file, "animations", "animation", options.animation.empty() ? "0" : options.animation));
+    Player player(file, animation);
     for (const Value& item : listIn(file.item("animations", animation), "channels"))
         if (const auto channel = readChannel(file, animation, item))
-            pose(file, animation, *channel, options.time.value_or(0), result);
+            pose(player, *channel, options.time.value_or(0), result);
     return result;
 }
 

@@ -16,7 +16,7 @@ namespace {
 /// Elements of each accessor that are looked at, so that a big file loads as fast as it can; with --strict all are.
 constexpr std::size_t kFirst = 4096;
 /// Elements of all accessors together, without --strict: they may share bytes, so that a file can name far more of them
-/// than it holds.
+/// than it holds. With --strict such a file is refused: File::spend().
 constexpr std::size_t kTogether = 10'000'000;
 
 // How far values may be off: floats as exporters round them, integers by the half of their smallest step and more.
@@ -27,9 +27,7 @@ constexpr float kSumFloat = 5e-4f, kSumInteger = 2e-3f;
 class Check {
 public:
     explicit Check(const File& file)
-        : file_(file),
-          most_(file.options.strict ? std::size_t(-1) : kFirst),
-          left_(file.options.strict ? std::size_t(-1) : kTogether) {}
+        : file_(file), most_(file.options.strict ? std::size_t(-1) : kFirst), left_(kTogether) {}
 
     void checkPrimitive(const PrimitivePart& primitive) {
         for (const auto& [name, accessor] : primitive.attributes) {
@@ -97,24 +95,14 @@ public:
 
 private:
     void checkBounds(std::size_t index, const Floats& values) {
-        const Value& item = file_.item("accessors", index);
+        Range range;
         const std::size_t components = std::size_t(values.components);
-        for (const bool upper : {false, true}) {
-            const char* key = upper ? "max" : "min";
-            const std::vector<float> declared = floatsIn(item, key);
-            if (declared.empty()) continue;
-            if (declared.size() != components)
-                return file_.fault("accessors", index, fmt::format("'{}' has not {} numbers", key, components));
-            for (std::size_t c = 0; c < components; ++c) {
-                float actual = values.at(0)[c];
-                for (std::size_t i = 0; i < values.count(); ++i)
-                    actual = upper ? std::max(actual, values.at(i)[c]) : std::min(actual, values.at(i)[c]);
-                const float tolerance = 1e-6f * std::max(std::abs(actual), std::abs(declared[c])) + 1e-9f;
-                if (std::abs(actual - declared[c]) > tolerance)
-                    return file_.fault("accessors", index,
-                                       fmt::format("'{}' says {}, the data {}", key, declared[c], actual));
-            }
+        for (std::size_t c = 0; c < components; ++c) range.low[c] = range.high[c] = values.at(0)[c];
+        for (std::size_t i = 0; i < values.values.size(); ++i) {
+            range.low[i % components] = std::min(range.low[i % components], values.values[i]);
+            range.high[i % components] = std::max(range.high[i % components], values.values[i]);
         }
+        checkDeclared(file_, index, range);
     }
 
     bool isNew(int accessor) { return seen_.insert(accessor).second; }
@@ -125,7 +113,9 @@ private:
         if (!hasData(file_, index)) return false;
         const AccessorPart& accessor = accessorOf(index);
         const std::size_t count = std::min(accessor.count, most_);
-        if ((accessor.bufferView < 0 && count > kFirst) || count > left_) return false;
+        if (accessor.bufferView < 0 && count > kFirst) return false;
+        if (file_.options.strict) return file_.spend(count), true;
+        if (count > left_) return false;
         left_ -= count;
         return true;
     }
@@ -286,7 +276,7 @@ private:
 
     const File& file_;
     const std::size_t most_;
-    std::size_t left_;  ///< Elements that may still be looked at.
+    std::size_t left_;  ///< Elements that may still be looked at, without --strict.
     std::set<int> seen_;
     std::map<int, float> largest_;
 };

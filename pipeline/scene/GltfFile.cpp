@@ -16,10 +16,11 @@ namespace {
 constexpr std::string_view kGlbMagic = "glTF";
 constexpr const char* kRepair = "this breaks a rule of glTF 2.0: repair the entry, or export the file again";
 constexpr std::size_t kMaxFaultsTold = 10;
-constexpr std::array kSupportedExtensions = {
-    "KHR_lights_punctual",     "KHR_materials_emissive_strength", "KHR_materials_unlit",
-    "KHR_texture_transform",   "KHR_mesh_quantization",           "KHR_materials_pbrSpecularGlossiness",
-    "EXT_mesh_gpu_instancing", "EXT_meshopt_compression",         "EXT_texture_webp"};
+constexpr std::array kSupportedExtensions = {"KHR_lights_punctual",     "KHR_materials_emissive_strength",
+                                             "KHR_materials_unlit",     "KHR_texture_transform",
+                                             "KHR_mesh_quantization",   "KHR_materials_pbrSpecularGlossiness",
+                                             "EXT_mesh_gpu_instancing", "EXT_meshopt_compression",
+                                             "EXT_texture_webp",        "KHR_node_visibility"};
 
 SourceLoc placeOf(const File& file, const Value* value) {
     // Lines of a .glb's JSON chunk say nothing: it is one long line inside a binary file.
@@ -65,18 +66,20 @@ void checkExtensions(const File& file) {
                 file.fault(placeOf(file, &name), fmt::format("'{}' is in '{}' twice", name.string(), key));
         }
     }
+    std::set<std::string> declared;
+    for (const Value& name : used) declared.insert(name.string());
     for (const Value& name : required) {
         if (!isSupportedExtension(name.string()))
             throw Error(placeOf(file, &name),
                         fmt::format("the file requires the extension '{}', which Crevice does not read", name.string()),
                         "export it without that extension");
-        if (std::none_of(used.begin(), used.end(), [&](const Value& u) { return u.string() == name.string(); }))
+        if (!declared.contains(name.string()))
             file.fault(placeOf(file, &name),
                        fmt::format("the required extension '{}' is not in 'extensionsUsed'", name.string()));
     }
-    for (const Value& name : used)
-        if (!isSupportedExtension(name.string()))
-            file.note(fmt::format("the extension '{}' is not read; the scene is shown without it", name.string()));
+    for (const std::string& name : declared)
+        if (!isSupportedExtension(name))
+            file.note(fmt::format("the extension '{}' is not read; the scene is shown without it", name));
 }
 
 void parseDocument(File& file) {
@@ -148,6 +151,23 @@ void File::warn(std::string_view list, std::size_t index, const std::string& mes
 
 void File::note(const std::string& message) const { options.log.note(fmt::format("{}: {}", name, message)); }
 
+void File::spend(std::size_t numbers) const {
+    constexpr std::size_t kFree = 10'000'000, kPerByte = 4;
+    const std::size_t most = kFree + kPerByte * bytesHeld();
+    if (numbers > most - std::min(spent, most))
+        throw Error(
+            SourceLoc{name},
+            fmt::format("its accessors name the same bytes so often that they stand for more than {} numbers", most),
+            options.strict ? "leave --strict out: it looks at all of them" : "export the file again");
+    spent += numbers;
+}
+
+std::size_t File::bytesHeld() const {
+    std::size_t bytes = content.size();
+    for (const std::vector<std::byte>& part : storage) bytes += part.size();
+    return bytes;
+}
+
 File open(const fs::path& path, const LoadOptions& options) {
     File file{.name = path.string(), .options = options};
     file.content = readBytes(path, std::min(options.limits.maxFileBytes, std::size_t(0xffffffff)));
@@ -155,6 +175,7 @@ File open(const fs::path& path, const LoadOptions& options) {
     checkVersion(file);
     checkExtensions(file);
     checkSchema(file);
+    normalise(file.json);
     file.model = readModel(file.json, file.name);
     Resources resources(file, fs::absolute(path).parent_path());
     resources.readBuffers();

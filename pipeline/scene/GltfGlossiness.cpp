@@ -56,20 +56,26 @@ glm::vec4 texelAt(const Image* image, std::uint32_t x, std::uint32_t y, glm::uve
     return linear(image->at(scaled(x, size.x, image->width), scaled(y, size.y, image->height)));
 }
 
-void convertTextures(const SpecularGlossiness& from, SceneMaterial& to, Scene& scene) {
-    const auto imageOf = [&](const TextureRef& ref) {
-        return ref ? &scene.textures[std::size_t(ref.texture)].image : nullptr;
-    };
-    const Image* diffuse = imageOf(from.diffuseMap);
-    const Image* specular = imageOf(from.specularGlossinessMap);
+const Image* imageOf(const TextureRef& map, const Scene& scene) {
+    return map ? &scene.textures[std::size_t(map.texture)].image : nullptr;
+}
+
+glm::uvec2 sizeOf(const SpecularGlossiness& from, const Scene& scene) {
     glm::uvec2 size(1);
-    for (const Image* image : {diffuse, specular})
+    for (const Image* image : {imageOf(from.diffuseMap, scene), imageOf(from.specularGlossinessMap, scene)})
         if (image) size = glm::max(size, glm::uvec2(image->width, image->height));
+    return size;
+}
+
+// Adds two textures of that size: base colour, then metallic-roughness.
+void convertTextures(const SpecularGlossiness& from, const glm::uvec2& size, const std::string& name, Scene& scene) {
+    const Image* diffuse = imageOf(from.diffuseMap, scene);
+    const Image* specular = imageOf(from.specularGlossinessMap, scene);
     SceneTexture color, rough;
-    color.name = to.name + " base colour";
+    color.name = name + " base colour";
     color.image = Image(size.x, size.y, Format::RGBA8);
     color.srgb = true;
-    rough.name = to.name + " metallic-roughness";
+    rough.name = name + " metallic-roughness";
     rough.image = Image(size.x, size.y, Format::RGBA8);
     for (std::uint32_t y = 0; y < size.y; ++y)
         for (std::uint32_t x = 0; x < size.x; ++x) {
@@ -88,24 +94,29 @@ void convertTextures(const SpecularGlossiness& from, SceneMaterial& to, Scene& s
     // Both maps are read like the one that is there; if they lie differently, like the diffuse one.
     const TextureRef& like = from.diffuseMap ? from.diffuseMap : from.specularGlossinessMap;
     color.sampler = rough.sampler = scene.textures[std::size_t(like.texture)].sampler;
-    to.baseColor = glm::vec4(1);
-    to.metallic = to.roughness = 1;
-    to.baseColorMap = to.metallicRoughnessMap = like;
-    to.baseColorMap.texture = int(scene.textures.size());
     scene.textures.push_back(std::move(color));
-    to.metallicRoughnessMap.texture = int(scene.textures.size());
     scene.textures.push_back(std::move(rough));
 }
 
-}  // namespace
+/// Converts each pair of maps with the same factors once.
+class Conversion {
+public:
+    Conversion(const File& file, std::size_t bytesLeft, Scene& scene)
+        : file_(file), bytesLeft_(bytesLeft), scene_(scene) {}
 
-void convertSpecularGlossiness(const std::vector<SpecularGlossiness>& materials, Scene& scene) {
-    for (const SpecularGlossiness& from : materials) {
-        SceneMaterial& to = scene.materials[from.material];
+    void convertMaterial(const SpecularGlossiness& from) {
+        SceneMaterial& to = scene_.materials[from.material];
         to.baseColorMap = to.metallicRoughnessMap = {};
         if (from.specularGlossinessMap || (from.diffuseMap && brightness(from.specular) > kDielectric)) {
-            convertTextures(from, to, scene);
-            continue;
+            if (const int first = texturesOf(from, to.name); first >= 0) {
+                to.baseColor = glm::vec4(1);
+                to.metallic = to.roughness = 1;
+                to.baseColorMap = to.metallicRoughnessMap =
+                    from.diffuseMap ? from.diffuseMap : from.specularGlossinessMap;
+                to.baseColorMap.texture = first;
+                to.metallicRoughnessMap.texture = first + 1;
+                return;
+            }
         }
         // Nothing is metallic: the diffuse map is kept, the numbers are converted for a white texel.
         const Converted made = convert(glm::vec3(from.diffuse), from.specular);
@@ -114,6 +125,52 @@ void convertSpecularGlossiness(const std::vector<SpecularGlossiness>& materials,
         to.roughness = 1 - from.glossiness;
         to.baseColorMap = from.diffuseMap;
     }
+
+private:
+    using Key = std::array<float, 10>;
+
+    // The first of two textures, or -1 when they do not fit what is left.
+    int texturesOf(const SpecularGlossiness& from, const std::string& name) {
+        const glm::vec4& d = from.diffuse;
+        const glm::vec3& s = from.specular;
+        const Key key{float(from.diffuseMap.texture),
+                      float(from.specularGlossinessMap.texture),
+                      d.r,
+                      d.g,
+                      d.b,
+                      d.a,
+                      s.r,
+                      s.g,
+                      s.b,
+                      from.glossiness};
+        const auto [entry, isNew] = made_.try_emplace(key, -1);
+        if (!isNew) return entry->second;
+        const glm::uvec2 size = sizeOf(from, scene_);
+        const std::size_t bytes = std::size_t(8) * size.x * size.y;
+        if (bytes > bytesLeft_) {
+            file_.lack("materials", from.material,
+                       "no room for textures converted from specular-glossiness, it is shown without; " +
+                           raiseLimit("image-bytes"));
+            return -1;
+        }
+        bytesLeft_ -= bytes;
+        entry->second = int(scene_.textures.size());
+        convertTextures(from, size, name, scene_);
+        return entry->second;
+    }
+
+    const File& file_;
+    std::size_t bytesLeft_;
+    Scene& scene_;
+    std::map<Key, int> made_;
+};
+
+}  // namespace
+
+void convertSpecularGlossiness(const File& file, const std::vector<SpecularGlossiness>& materials,
+                               std::size_t bytesLeft, Scene& scene) {
+    Conversion conversion(file, bytesLeft, scene);
+    for (const SpecularGlossiness& from : materials) conversion.convertMaterial(from);
 }
 
 }  // namespace crevice::gltf

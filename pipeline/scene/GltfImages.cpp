@@ -30,11 +30,13 @@ struct Picture {
 
 std::string nameOf(const ImagePart& image, int index) {
     if (!image.name.empty()) return image.name;
-    return image.uri.empty() || image.uri.starts_with("data:") ? fmt::format("image {}", index) : image.uri;
+    return image.uri.empty() || image.uri.starts_with("data:") ? fmt::format("image {}", index) : shortened(image.uri);
 }
 
-// What can be said before decoding: empty = fine. `bytesLeft` is the budget of decoded pixels.
-std::string refuse(const ImagePart& encoded, int index, const Limits& limits, std::size_t& bytesLeft) {
+// What can be said before decoding: empty = fine. `bytesLeft` is the budget of decoded pixels, of which each texture
+// has its own.
+std::string refuse(const ImagePart& encoded, int index, const Limits& limits, std::size_t textures,
+                   std::size_t& bytesLeft) {
     if (encoded.bytes.empty()) return "there is no picture";
     const auto header = readPictureHeader(encoded.bytes);
     if (!header) return "the picture is neither PNG, JPEG nor WebP, or broken";
@@ -44,8 +46,8 @@ std::string refuse(const ImagePart& encoded, int index, const Limits& limits, st
         return failure.what();
     }
     const std::size_t bytes = std::size_t(4) * header->width * header->height;
-    if (bytes > bytesLeft) return "all pictures together are beyond the limit; " + raiseLimit("image-bytes");
-    bytesLeft -= bytes;
+    if (bytes > bytesLeft / textures) return "all pictures together are beyond the limit; " + raiseLimit("image-bytes");
+    bytesLeft -= bytes * textures;
     return {};
 }
 
@@ -90,6 +92,8 @@ void decodeAll(std::vector<std::pair<const ImagePart*, Picture*>>& jobs, const L
 
 }  // namespace
 
+Images::Images(const File& file) : file_(file), bytesLeft_(file.options.limits.maxImageBytes) {}
+
 int Images::use(int texture, bool srgb, std::string_view user) {
     const TexturePart& from = file_.model.textures[std::size_t(texture)];
     // EXT_texture_webp: `source` is what those who cannot read WebP show.
@@ -99,20 +103,51 @@ int Images::use(int texture, bool srgb, std::string_view user) {
                    fmt::format("has no PNG, JPEG or WebP 'source'; {} is left out", user));
         return -1;
     }
-    const Key key{source, from.sampler, srgb};
+    // Images of the same bytes are one, or a small file could have a big picture decoded any number of times.
+    const std::span<const std::byte> bytes = file_.model.images[std::size_t(source)].bytes;
+    const int first =
+        bytes.empty() ? source : sources_.emplace(std::pair(bytes.data(), bytes.size()), source).first->second;
+    const Key key{first, samplerLike(from.sampler), srgb};
     const auto [entry, isNew] = indices_.emplace(key, int(keys_.size()));
     if (isNew) keys_.push_back(key);
     return entry->second;
 }
 
+// The first sampler that reads pictures in the same way: there are few ways.
+int Images::samplerLike(int sampler) {
+    const SamplerDesc wanted = readSampler(file_, sampler);
+    for (const auto& [desc, index] : samplers_)
+        if (desc == wanted) return index;
+    samplers_.emplace_back(wanted, sampler);
+    return sampler;
+}
+
+// Pictures that overlap in the file's bytes would be decoded far more often than it is long.
+void Images::checkTotal() const {
+    constexpr std::size_t kFree = std::size_t(1) << 20;
+    const std::size_t most = kFree + 2 * file_.bytesHeld();
+    std::size_t total = 0;
+    for (const auto& [bytes, image] : sources_) {
+        total += bytes.second;
+        if (total > most)
+            file_.fail("images", std::size_t(image),
+                       "the pictures share their bytes, so that they are longer than all files",
+                       "give each picture a buffer view of its own");
+    }
+}
+
 std::vector<SceneTexture> Images::decode() {
+    checkTotal();
     std::map<int, Picture> decoded;
-    for (const Key& key : keys_) decoded[std::get<0>(key)];
+    std::map<int, std::size_t> usesLeft;
+    for (const Key& key : keys_) {
+        decoded[std::get<0>(key)];
+        ++usesLeft[std::get<0>(key)];
+    }
     std::vector<std::pair<const ImagePart*, Picture*>> jobs;
-    std::size_t bytesLeft = file_.options.limits.maxImageBytes;
     for (auto& [index, result] : decoded) {
         const ImagePart& image = file_.model.images[std::size_t(index)];
-        result.problem = refuse(image, index, file_.options.limits, bytesLeft);
+        result.problem = refuse(image, index, file_.options.limits, usesLeft[index], bytesLeft_);
         if (result.problem.empty()) jobs.emplace_back(&image, &result);
     }
     decodeAll(jobs, file_.options.limits);
@@ -123,8 +158,6 @@ std::vector<SceneTexture> Images::decode() {
         if (!result.image && !told) file_.lack("images", std::size_t(index), result.problem + ": shown white");
     }
     std::vector<SceneTexture> textures;
-    std::map<int, std::size_t> usesLeft;
-    for (const Key& key : keys_) ++usesLeft[std::get<0>(key)];
     for (const auto& [image, sampler, srgb] : keys_) {
         Picture& result = decoded.at(image);
         const bool isLast = --usesLeft[image] == 0;  // takes the pixels; others copy them

@@ -38,7 +38,7 @@ std::optional<Camera> readCamera(const File& file, int index, const glm::mat4& w
         return std::nullopt;
     }
     Camera to = Camera::lookAt(eye, eye - backward, up);
-    to.name = textOr(from, "name");
+    to.name = nameIn(from);
     if (to.name.empty()) to.name = otherName;
     if (type != "orthographic" && type != "perspective") return std::nullopt;  // told by checkSchema()
     if (!lens) file.fail("cameras", camera, fmt::format("'{}' is missing", type));
@@ -83,7 +83,7 @@ Light readLight(const File& file, int index, const glm::mat4& world, const std::
     to.position = glm::vec3(world[3]);
     const glm::vec3 direction = -glm::vec3(world[2]);
     to.direction = glm::length(direction) > 0 ? glm::normalize(direction) : glm::vec3(0, 0, -1);
-    to.name = textOr(from, "name");
+    to.name = nameIn(from);
     if (to.name.empty()) to.name = otherName;
     return to;
 }

@@ -27,7 +27,7 @@ Scene loadGltf(const std::filesystem::path& path, const LoadOptions& options) {
     gltf::readNodes(file, meshes, scene);
     scene.textures = images.decode();
     dropBrokenNormalMaps(images.broken(), scene);
-    gltf::convertSpecularGlossiness(materials.toConvert, scene);
+    gltf::convertSpecularGlossiness(file, materials.toConvert, images.bytesLeft(), scene);
     gltf::drawOpaqueWhatIs(scene);
     return scene;
 }

@@ -17,7 +17,7 @@ public:
         : file_(file), images_(images), index_(index), from_(file.item("materials", index)) {}
 
     SceneMaterial read(std::vector<SpecularGlossiness>& toConvert) {
-        to_.name = textOr(from_, "name", fmt::format("material {}", index_));
+        to_.name = nameIn(from_);
         if (to_.name.empty()) to_.name = fmt::format("material {}", index_);
         to_.doubleSided = flagOr(from_, "doubleSided");
         to_.alphaCutoff = float(numberOr(from_, "alphaCutoff", 0.5));
@@ -48,7 +48,7 @@ private:
     // All textures of the material, wherever they stand in it.
     void collectSets(const Value& object) {
         for (const Member& member : object.members()) {
-            if (!member.value.isObject() || member.key == "extras") continue;
+            if (!member.value.isObject()) continue;
             if (member.key.ends_with("Texture"))
                 sets_.push_back(setOf(member.value));
             else

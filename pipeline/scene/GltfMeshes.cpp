@@ -113,6 +113,7 @@ Vertex makeVertex(const Attributes& from, std::size_t i) {
     if (from.uv[2].components || from.uv[3].components) vertex.tangent = glm::vec4(uv(2), uv(3));
     if (from.color.components == 3) vertex.color = glm::vec4(from.color.at<3>(i), 1);
     if (from.color.components == 4) vertex.color = from.color.at<4>(i);
+    vertex.color = glm::clamp(vertex.color, 0.0f, 1.0f);  // glTF 2.0 specification, 3.7.2.1
     return vertex;
 }
 
@@ -167,6 +168,16 @@ std::vector<std::uint32_t> readIndices(const File& file, int mesh, const Primiti
     return indices;
 }
 
+// How often as many attributes are read as there are vertices: sets of joints and morph targets beyond the first count
+// as vertices, as they take as much time.
+std::size_t timesRead(const PrimitivePart& primitive, const Deformation& deformation, std::span<const float> weights) {
+    std::size_t times = 1;
+    if (!deformation.joints.empty())
+        for (const auto& [name, accessor] : primitive.attributes) times += name.starts_with("JOINTS_");
+    for (std::size_t i = 0; i < std::min(weights.size(), primitive.targets.size()); ++i) times += weights[i] != 0;
+    return times;
+}
+
 std::string nameOf(const MeshPart& mesh, int index, std::size_t primitive) {
     std::string name = mesh.name.empty() ? fmt::format("mesh {}", index) : mesh.name;
     if (mesh.primitives.size() > 1) name += fmt::format("/{}", primitive);
@@ -175,13 +186,14 @@ std::string nameOf(const MeshPart& mesh, int index, std::size_t primitive) {
 
 }  // namespace
 
-void Meshes::countVertices(std::size_t vertices, std::size_t indices, int mesh) {
-    vertexCount_ += vertices;
-    indexCount_ += indices;
+void Meshes::countVertices(std::size_t vertices, std::size_t times, std::size_t indices, int mesh) {
     const std::size_t limit = file_.options.limits.maxVertices;
-    if (vertexCount_ > limit || indexCount_ > 6 * limit)
+    const bool tooMany = vertices > (limit - vertexCount_) / times || indices > 6 * limit - indexCount_;
+    if (tooMany)
         file_.fail("meshes", std::size_t(mesh), fmt::format("the scene has more than {} vertices", limit),
                    raiseLimit("vertices"));
+    vertexCount_ += vertices * times;
+    indexCount_ += indices;
 }
 
 std::optional<Mesh> Meshes::readPrimitive(int meshIndex, std::size_t index, const Deformation& deformation,
@@ -195,9 +207,10 @@ std::optional<Mesh> Meshes::readPrimitive(int meshIndex, std::size_t index, cons
     const auto position = primitive.attributes.find("POSITION");
     if (position == primitive.attributes.end()) return std::nullopt;  // legal, and nothing to draw
     const std::size_t count = file_.model.accessors[std::size_t(position->second)].count;
-    countVertices(count, 0, meshIndex);
+    const std::span<const float> weights = deformation.weights.empty() ? from.weights : deformation.weights;
+    countVertices(count, timesRead(primitive, deformation, weights), 0, meshIndex);
     Attributes attributes = readAttributes(file_, meshIndex, primitive, sets, !deformation.joints.empty());
-    morph(file_, meshIndex, primitive, deformation.weights, sets, attributes);
+    morph(file_, meshIndex, primitive, weights, sets, attributes);
 
     Mesh mesh;
     mesh.name = nameOf(from, meshIndex, index);
@@ -209,7 +222,7 @@ std::optional<Mesh> Meshes::readPrimitive(int meshIndex, std::size_t index, cons
     bend(file_, meshIndex, attributes, deformation.joints, mesh.vertices);
     const bool hasNormals = attributes.normal.components != 0;
     if (!hasNormals && mesh.topology == MeshTopology::Triangles) makeFlat(mesh);
-    countVertices(mesh.vertices.size() - std::min(count, mesh.vertices.size()), mesh.indices.size(), meshIndex);
+    countVertices(mesh.vertices.size() - std::min(count, mesh.vertices.size()), 1, mesh.indices.size(), meshIndex);
     mesh.hasTangents = attributes.tangent.components == 4;
     // glTF 2.0 specification, 3.9.7: how points and lines are shaded.
     if (mesh.topology != MeshTopology::Triangles) {

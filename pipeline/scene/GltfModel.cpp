@@ -94,7 +94,7 @@ BufferPart readBuffer(const Value& from) {
 }
 
 ImagePart readImage(const Value& from) {
-    return {.name = textOr(from, "name"), .uri = textOr(from, "uri"), .bufferView = intOr(from, "bufferView")};
+    return {.name = nameIn(from), .uri = textOr(from, "uri"), .bufferView = intOr(from, "bufferView")};
 }
 
 BufferViewPart readBufferView(const tinygltf::BufferView& from, const Value& json) {
@@ -141,20 +141,21 @@ TexturePart readTexture(const tinygltf::Texture& from, const Value& json) {
 }
 
 MeshPart readMesh(const tinygltf::Mesh& from, const Value&) {
-    MeshPart to{.name = from.name, .weights = floatsOf(from.weights)};
+    MeshPart to{.name = shortened(from.name), .weights = floatsOf(from.weights)};
     for (const tinygltf::Primitive& item : from.primitives) {
         PrimitivePart primitive{.attributes = attributesOf(item.attributes),
                                 .indices = item.indices,
                                 .material = item.material,
                                 .mode = item.mode};
         for (const auto& target : item.targets) primitive.targets.push_back(attributesOf(target));
+        to.jointed = to.jointed || primitive.attributes.contains("JOINTS_0");
         to.primitives.push_back(std::move(primitive));
     }
     return to;
 }
 
 NodePart readNode(const tinygltf::Node& from, const Value& json) {
-    NodePart to{.name = from.name,
+    NodePart to{.name = shortened(from.name),
                 .children = from.children,
                 .mesh = from.mesh,
                 .skin = from.skin,
@@ -168,6 +169,8 @@ NodePart readNode(const tinygltf::Node& from, const Value& json) {
     if (const Value* light = extensionOf(json, "KHR_lights_punctual")) to.light = intOr(*light, "light");
     if (const Value* copies = extensionOf(json, "EXT_mesh_gpu_instancing"))
         to.instancing = attributesIn(objectIn(copies, "attributes"));
+    if (const Value* visibility = extensionOf(json, "KHR_node_visibility"))
+        to.visible = flagOr(*visibility, "visible", true);
     return to;
 }
 
@@ -212,6 +215,17 @@ std::string textOr(const Value& object, std::string_view key, const std::string&
     const Value* value = memberOf(object, key);
     return value && value->isString() ? value->string() : otherwise;
 }
+
+std::string shortened(std::string text) {
+    constexpr std::size_t kMost = 200;
+    if (text.size() <= kMost) return text;
+    std::size_t end = kMost;
+    while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xc0) == 0x80) --end;  // not inside a UTF-8 sequence
+    text.resize(end);
+    return text;
+}
+
+std::string nameIn(const Value& object) { return shortened(textOr(object, "name")); }
 
 const Value* objectIn(const Value* object, std::string_view key) {
     const Value* value = object ? memberOf(*object, key) : nullptr;

@@ -82,6 +82,7 @@ struct MeshPart {
     std::string name{};
     std::vector<PrimitivePart> primitives{};
     std::vector<float> weights{};
+    bool jointed = false;  ///< A primitive has JOINTS_0.
 };
 
 struct NodePart {
@@ -93,6 +94,7 @@ struct NodePart {
     glm::quat rotation{1, 0, 0, 0};
     std::vector<float> weights{};
     AttributeMap instancing{};  ///< EXT_mesh_gpu_instancing
+    bool visible = true;        ///< KHR_node_visibility
 };
 
 struct Model {
@@ -114,6 +116,9 @@ int intOr(const Value& object, std::string_view key, int otherwise = -1);
 std::size_t sizeOr(const Value& object, std::string_view key, std::size_t otherwise = 0);
 bool flagOr(const Value& object, std::string_view key, bool otherwise = false);
 std::string textOr(const Value& object, std::string_view key, const std::string& otherwise = {});
+/// 'name' of an object as the scene keeps it: at most 200 bytes, as instances copy it.
+std::string nameIn(const Value& object);
+std::string shortened(std::string text);
 /// The object member, or null. `object` may be null.
 const Value* objectIn(const Value* object, std::string_view key);
 const Value* extensionOf(const Value& object, std::string_view name);

@@ -73,11 +73,11 @@ public:
         for (const Placed& node : placed) world_[node.node] = node.world;
         for (const Placed& node : placed) {
             const NodePart& from = file_.model.nodes[std::size_t(node.node)];
-            if (from.mesh >= 0) addMesh(node, from);
+            if (from.mesh >= 0 && node.visible) addMesh(node, from);
             if (from.camera >= 0)
                 if (auto camera = readCamera(file_, from.camera, node.world, nameOf(from, "camera", node.node)))
                     scene_.cameras.push_back(std::move(*camera));
-            if (from.light >= 0)
+            if (from.light >= 0 && node.visible)
                 scene_.lights.push_back(readLight(file_, from.light, node.world, nameOf(from, "light", node.node)));
         }
         const std::size_t cameras = listIn(file_.json, "cameras").size();
@@ -90,51 +90,44 @@ private:
         return node.name.empty() ? fmt::format("{} {}", kind, index) : node.name;
     }
 
-    // Joint matrices in world space. Joints that the scene does not hold stand where they would alone.
-    std::vector<glm::mat4> jointMatrices(int index) const {
+    /// The joints' matrices in world space, and whether most of them mirror.
+    struct Joints {
+        std::vector<glm::mat4> matrices{};
+        bool mirror = false;
+    };
+
+    // Each skin's once, whatever number of nodes share it. Joints that the scene does not hold stand where they would
+    // alone.
+    const Joints& jointsOf(int index) {
+        const auto [entry, isNew] = joints_.try_emplace(index);
+        if (!isNew) return entry->second;
         const Value& skin = file_.item("skins", std::size_t(index));
         const auto& joints = listIn(skin, "joints");
         const int accessor = intOr(skin, "inverseBindMatrices");
-        Floats inverse;
-        if (accessor >= 0) {
-            inverse = readFloats(file_, accessor);
-            if (inverse.components != 16 || inverse.count() < joints.size())
-                file_.fail("skins", std::size_t(index), "'inverseBindMatrices' is not one 4x4 matrix per joint");
-        }
-        std::vector<glm::mat4> matrices;
+        const Floats inverse = accessor >= 0 ? readSomeFloats(file_, accessor, 0, joints.size()) : Floats{};
+        std::size_t mirrored = 0;
         for (std::size_t i = 0; i < joints.size(); ++i) {
             glm::mat4 bind(1);
             for (int k = 0; k < 16 && inverse.components; ++k) bind[k / 4][k % 4] = inverse.at(i)[k];
             const int joint = int(joints[i].number());
             const auto world = world_.find(joint);
-            matrices.push_back((world == world_.end() ? localMatrix(file_, joint, pose_) : world->second) * bind);
+            const glm::mat4 matrix = (world == world_.end() ? localMatrix(file_, joint, pose_) : world->second) * bind;
+            mirrored += glm::determinant(glm::mat3(matrix)) < 0;
+            entry->second.matrices.push_back(matrix);
         }
-        return matrices;
-    }
-
-    Deformation deformationOf(const Placed& node, const NodePart& from) const {
-        Deformation deformation;
-        if (from.skin >= 0) {
-            deformation.skin = from.skin;
-            deformation.joints = jointMatrices(from.skin);
-        }
-        const std::vector<float>& rest =
-            from.weights.empty() ? file_.model.meshes[std::size_t(from.mesh)].weights : from.weights;
-        deformation.weights = posed(pose_.weights, node.node, rest);
-        return deformation;
+        entry->second.mirror = mirrored * 2 > joints.size();
+        return entry->second;
     }
 
     void addMesh(const Placed& node, const NodePart& from) {
-        const Deformation deformation = deformationOf(node, from);
+        Deformation deformation{.skin = from.skin, .weights = posed(pose_.weights, node.node, from.weights)};
+        const Joints none;
+        const Joints& joints = from.skin >= 0 ? jointsOf(from.skin) : none;
+        deformation.joints = joints.matrices;
         // A skinned mesh stands where its joints are; its own node's place does not count.
-        const auto& primitives = file_.model.meshes[std::size_t(from.mesh)].primitives;
-        const bool skinned =
-            !deformation.joints.empty() && std::any_of(primitives.begin(), primitives.end(),
-                                                       [](auto& p) { return p.attributes.contains("JOINTS_0"); });
+        const bool skinned = !joints.matrices.empty() && file_.model.meshes[std::size_t(from.mesh)].jointed;
         const glm::mat4 world = skinned ? glm::mat4(1) : node.world;
-        std::size_t mirrored = 0;
-        for (const glm::mat4& joint : deformation.joints) mirrored += glm::determinant(glm::mat3(joint)) < 0;
-        const bool mirrors = skinned && mirrored * 2 > deformation.joints.size();
+        const bool mirrors = skinned && joints.mirror;
         for (const Part& part : meshes_.parts(from.mesh, deformation)) {
             const int material = materialOf(part);
             if (from.instancing.empty()) {
@@ -193,6 +186,7 @@ private:
     Scene& scene_;
     Pose pose_;
     std::map<int, glm::mat4> world_;  ///< Of glTF nodes in the scene
+    std::map<int, Joints> joints_;    ///< Of skins
     std::map<std::pair<int, bool>, int> variants_;
     int defaultMaterial_ = -1;
 };
@@ -219,10 +213,11 @@ int findNamed(const File& file, const char* list, const char* option, const std:
 std::vector<Placed> placeNodes(const File& file, const Pose& pose) {
     std::vector<bool> seen(file.model.nodes.size(), false);
     std::vector<Placed> placed, stack;
-    const auto push = [&](const std::vector<int>& nodes, const glm::mat4& parent, int depth) {
-        for (auto node = nodes.rbegin(); node != nodes.rend(); ++node) stack.push_back({*node, depth, parent});
+    const auto push = [&](const std::vector<int>& nodes, const Placed& parent) {
+        for (auto node = nodes.rbegin(); node != nodes.rend(); ++node)
+            stack.push_back({*node, parent.depth + 1, parent.world, parent.visible});
     };
-    push(rootNodes(file), glm::mat4(1), 1);
+    push(rootNodes(file), {});
     while (!stack.empty()) {
         Placed next = stack.back();
         stack.pop_back();
@@ -235,7 +230,8 @@ std::vector<Placed> placeNodes(const File& file, const Pose& pose) {
                       raiseLimit("node-depth"));
         next.world = next.world * localMatrix(file, next.node, pose);
         if (!allFinite(next.world)) file.fail("nodes", node, "its place in the world is not finite");
-        push(file.model.nodes[node].children, next.world, next.depth + 1);
+        next.visible = next.visible && file.model.nodes[node].visible;
+        push(file.model.nodes[node].children, next);
         placed.push_back(next);
     }
     return placed;
@@ -246,18 +242,18 @@ std::vector<glm::mat4> readInstancing(const File& file, const NodePart& node, in
     const auto read = [&](const char* name, int components) -> Floats {
         const auto entry = node.instancing.find(name);
         if (entry == node.instancing.end()) return {};
-        Floats floats = readFloats(file, entry->second);
-        if (floats.components != components || (count && floats.count() != count))
+        const AccessorPart& accessor = file.model.accessors[std::size_t(entry->second)];
+        if (accessor.components() != components || (count && accessor.count != count))
             file.fail("nodes", std::size_t(index),
                       fmt::format("EXT_mesh_gpu_instancing: type or count of '{}' does not fit", name));
-        count = floats.count();
-        return floats;
+        count = accessor.count;
+        if (count > file.options.limits.maxInstances)
+            file.fail("nodes", std::size_t(index),
+                      fmt::format("the scene has more than {} instances", file.options.limits.maxInstances),
+                      raiseLimit("instances"));
+        return readFloats(file, entry->second);
     };
     const Floats translation = read("TRANSLATION", 3), rotation = read("ROTATION", 4), scale = read("SCALE", 3);
-    if (count > file.options.limits.maxInstances)
-        file.fail("nodes", std::size_t(index),
-                  fmt::format("the scene has more than {} instances", file.options.limits.maxInstances),
-                  raiseLimit("instances"));
     std::vector<glm::mat4> copies;
     for (std::size_t i = 0; i < count; ++i) {
         const auto vector = [&](const Floats& from, const glm::vec3& otherwise) {

@@ -1,6 +1,7 @@
 // Internal to the glTF loader: the opened file and the steps that turn its parts into a Scene.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <cstring>
 #include <deque>
@@ -19,6 +20,19 @@
 
 namespace crevice::gltf {
 
+/// Sparse indices that are known to increase: bytes that many accessors share are walked once.
+class IncreasingRuns {
+public:
+    /// The first of `count` integers that is not above the one before; `count`: there is none.
+    std::size_t findBreak(const unsigned char* data, int componentType, std::size_t count);
+    std::size_t visited() const { return visited_; }
+
+private:
+    using Runs = std::map<const unsigned char*, const unsigned char*>;  // begin, end
+    std::map<std::pair<int, std::size_t>, Runs> runs_;  ///< Of a type, and of addresses modulo its size.
+    std::size_t visited_ = 0;
+};
+
 /// An opened file: its JSON with places for messages, the same as structs, and the bytes they lie in.
 struct File {
     std::string name;  ///< As given by the caller.
@@ -31,6 +45,8 @@ struct File {
     Value json{};
     Model model{};
     mutable std::set<std::string> faults{};  ///< Formal faults told so far: each is told once.
+    mutable IncreasingRuns increasing{};
+    mutable std::size_t spent = 0;  ///< By spend().
 
     /// The place of `list[index]`, as exact as the format allows.
     SourceLoc where(std::string_view list, std::size_t index) const;
@@ -44,6 +60,11 @@ struct File {
     void lack(std::string_view list, std::size_t index, const std::string& message) const;
     void warn(std::string_view list, std::size_t index, const std::string& message) const;
     void note(const std::string& message) const;
+    /// Counts numbers that are looked at. Throws Error when they are many times more than the file has bytes: accessors
+    /// may share bytes, so that a small file can name any number of them.
+    void spend(std::size_t numbers) const;
+    /// The file itself, and what it names.
+    std::size_t bytesHeld() const;
     /// `list[index]` in the JSON; must exist.
     const Value& item(std::string_view list, std::size_t index) const;
 };
@@ -56,6 +77,8 @@ std::string_view readContainer(File& file);
 bool isSupportedExtension(const std::string& name);
 /// Types, ranges and references of everything in the JSON. Throws Error with the first breach that does harm.
 void checkSchema(const File& file);
+/// Drops what the tables do not name, so that nobody searches or copies it again; writes 1.0 as 1 where it is an integer.
+void normalise(Value& json);
 /// What spans several objects: trees, attributes, skins, animations, cameras.
 void checkRules(const File& file);
 /// What accessors and buffer views serve for: each for one thing, laid out as that thing asks.
@@ -111,9 +134,20 @@ struct Floats {
 void checkAccessor(const File& file, std::size_t index);
 /// Throws Error: numbers that are not finite, an accessor without data.
 Floats readFloats(const File& file, int accessor);
+/// Elements from `first` on, which must be there. Throws Error as readFloats() does.
+Floats readSomeFloats(const File& file, int accessor, std::size_t first, std::size_t count);
 /// The first `most` elements, unchecked: they may be beyond declared bounds or not finite. Integers that are no
 /// indices, as well; exact up to 2^24.
 Floats readFirstFloats(const File& file, int accessor, std::size_t most);
+/// The smallest and largest number of each component.
+struct Range {
+    std::array<float, 16> low{}, high{};
+};
+/// Throws Error when a number is not finite; holds declared 'min' and 'max' against the rest. `bytes`: floats, packed
+/// within an element.
+void checkFloats(const File& file, std::size_t accessor, const unsigned char* bytes, std::size_t stride);
+/// Declared bounds are the smallest and largest numbers stored: nothing that is drawn depends on them.
+void checkDeclared(const File& file, std::size_t accessor, const Range& stored);
 /// The accessor's data is there and could be read.
 bool hasData(const File& file, int accessor);
 
@@ -149,17 +183,25 @@ std::vector<std::uint32_t> readIntegers(const File& file, int accessor);
 /// The textures that materials asked for; pixels are decoded at the end, all at once.
 class Images {
 public:
-    explicit Images(const File& file) : file_(file) {}
+    explicit Images(const File& file);
     /// Index of the scene texture for a glTF texture in one colour space, or -1.
     int use(int texture, bool srgb, std::string_view user);
     /// Decodes every image in use on all cores; a broken one becomes white, with a warning.
     std::vector<SceneTexture> decode();
     /// Scene textures without a picture of their own, after decode().
     const std::set<int>& broken() const { return broken_; }
+    /// What decode() left of LoadLimits::maxImageBytes.
+    std::size_t bytesLeft() const { return bytesLeft_; }
 
 private:
-    using Key = std::tuple<int, int, bool>;  // image, sampler, srgb
+    using Key = std::tuple<int, int, bool>;  // image, sampler, srgb: the first of their kind
+    int samplerLike(int sampler);
+    void checkTotal() const;
+
     const File& file_;
+    std::vector<std::pair<SamplerDesc, int>> samplers_;
+    std::size_t bytesLeft_;
+    std::map<std::pair<const std::byte*, std::size_t>, int> sources_;  ///< The first image of the same bytes.
     std::map<Key, int> indices_;
     std::vector<Key> keys_;
     std::set<int> broken_;
@@ -181,8 +223,10 @@ struct Materials {
     std::vector<SpecularGlossiness> toConvert;
 };
 Materials readMaterials(const File& file, Images& images);
-/// Replaces what readMaterials() left for after decoding. Adds textures.
-void convertSpecularGlossiness(const std::vector<SpecularGlossiness>& materials, Scene& scene);
+/// Replaces what readMaterials() left for after decoding. Adds textures of at most `bytesLeft`; where there is no room
+/// for them, the textures are left out with a warning.
+void convertSpecularGlossiness(const File& file, const std::vector<SpecularGlossiness>& materials,
+                               std::size_t bytesLeft, Scene& scene);
 
 /// Blended materials whose factor, texture and vertex colours are opaque become opaque. Needs pixels and vertices.
 void drawOpaqueWhatIs(Scene& scene);
@@ -206,10 +250,11 @@ struct Part {
     bool noMap = false;  ///< Points and lines without tangents: no normal map
 };
 
-/// What bends a mesh: the joints' matrices (empty: none) and the weights of its morph targets.
+/// What bends a mesh: the joints' matrices (empty: none) and the weights of its morph targets, where they are not the
+/// mesh's own.
 struct Deformation {
     int skin = -1;
-    std::vector<glm::mat4> joints{};
+    std::span<const glm::mat4> joints{};
     std::vector<float> weights{};
 };
 
@@ -237,7 +282,8 @@ public:
 
 private:
     std::optional<Mesh> readPrimitive(int mesh, std::size_t primitive, const Deformation& deformation, Part& part);
-    void countVertices(std::size_t vertices, std::size_t indices, int mesh);
+    /// `times`: attributes of that many vertices are read besides each other.
+    void countVertices(std::size_t vertices, std::size_t times, std::size_t indices, int mesh);
 
     const File& file_;
     const Materials& materials_;
@@ -250,6 +296,7 @@ private:
 struct Placed {
     int node = 0, depth = 0;
     glm::mat4 world{1};
+    bool visible = true;  ///< It and all above it: KHR_node_visibility.
 };
 /// The nodes of the scene that LoadOptions::scene names, posed, parents first.
 std::vector<Placed> placeNodes(const File& file, const Pose& pose);

@@ -176,7 +176,11 @@ void Resources::readImages() {
             continue;
         }
         if (image.uri.empty()) continue;
-        const fs::path path = placeOf("images", i, image.uri);
+        const fs::path path = placeOf("images", i, image.uri).lexically_normal();
+        if (const auto known = read_.find(path); known != read_.end()) {
+            image.bytes = known->second;
+            continue;
+        }
         std::error_code error;
         if (!fs::is_regular_file(path, error)) {
             file_.lack("images", i, fmt::format("no file '{}': shown white", path.filename().string()));
@@ -184,6 +188,7 @@ void Resources::readImages() {
         }
         image.bytes = keep(readBytes(path, bytesLeft_));
         bytesLeft_ -= image.bytes.size();
+        read_.emplace(path, image.bytes);
     }
 }
 

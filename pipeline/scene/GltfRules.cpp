@@ -105,25 +105,38 @@ void checkMode(const File& file, std::size_t mesh, const PrimitivePart& primitiv
             fmt::format("{}: meshes[{}]: {} vertices do not fit mode {}", file.name, mesh, count, primitive.mode));
 }
 
-// All sets that the material reads must be there, or its textures would show one colour.
-void checkTexcoords(const File& file, std::size_t mesh, const PrimitivePart& primitive, const Value& material) {
-    for (const Member& member : material.members()) {
-        if (!member.value.isObject() || member.key == "extras") continue;
+/// The sets of texture coordinates that a material reads, each with a texture that reads it.
+using Sets = std::map<int, std::string>;
+
+void collectSets(const Value& object, Sets& sets) {
+    for (const Member& member : object.members()) {
+        if (!member.value.isObject()) continue;
         if (!member.key.ends_with("Texture")) {
-            checkTexcoords(file, mesh, primitive, member.value);
+            collectSets(member.value, sets);
             continue;
         }
         const Value* transform = extensionOf(member.value, "KHR_texture_transform");
         const int own = intOr(member.value, "texCoord", 0);
-        const int set = transform ? intOr(*transform, "texCoord", own) : own;
-        if (!primitive.attributes.contains(fmt::format("TEXCOORD_{}", set)))
-            file.fault("meshes", mesh,
-                       fmt::format("'{}' of its material reads TEXCOORD_{}, which is not there", member.key, set));
+        sets.emplace(transform ? intOr(*transform, "texCoord", own) : own, member.key);
     }
 }
 
+// All sets that the material reads must be there, or its textures would show one colour.
+void checkTexcoords(const File& file, std::size_t mesh, const PrimitivePart& primitive, const Sets& sets) {
+    for (const auto& [set, texture] : sets)
+        if (!primitive.attributes.contains(fmt::format("TEXCOORD_{}", set)))
+            file.fault("meshes", mesh,
+                       fmt::format("'{}' of its material reads TEXCOORD_{}, which is not there", texture, set));
+}
+
+std::vector<Sets> setsOfMaterials(const File& file) {
+    std::vector<Sets> all;
+    for (const Value& material : listIn(file.json, "materials")) collectSets(material, all.emplace_back());
+    return all;
+}
+
 void checkMeshes(const File& file) {
-    const auto& materials = listIn(file.json, "materials");
+    const std::vector<Sets> sets = setsOfMaterials(file);
     for (std::size_t i = 0; i < file.model.meshes.size(); ++i) {
         const MeshPart& mesh = file.model.meshes[i];
         for (const PrimitivePart& primitive : mesh.primitives) {
@@ -131,7 +144,7 @@ void checkMeshes(const File& file) {
             checkMode(file, i, primitive);
             if (primitive.targets.size() != mesh.primitives[0].targets.size())
                 file.fail("meshes", i, "its primitives have different numbers of morph targets");
-            if (primitive.material >= 0) checkTexcoords(file, i, primitive, materials[std::size_t(primitive.material)]);
+            if (primitive.material >= 0) checkTexcoords(file, i, primitive, sets[std::size_t(primitive.material)]);
         }
         if (!mesh.weights.empty() && !mesh.primitives.empty() &&
             mesh.weights.size() != mesh.primitives[0].targets.size())
@@ -167,9 +180,8 @@ void checkNode(const File& file, std::size_t index, const NodePart& node) {
     const std::size_t targets = primitives.empty() ? 0 : primitives[0].targets.size();
     if (!node.weights.empty() && node.weights.size() != targets)
         file.fail("nodes", index, fmt::format("it has {} weights for {} morph targets", node.weights.size(), targets));
-    const bool jointed = std::any_of(primitives.begin(), primitives.end(),
-                                     [](const PrimitivePart& p) { return p.attributes.contains("JOINTS_0"); });
-    if (node.skin >= 0 && !jointed) file.fault("nodes", index, "it has a 'skin' but its mesh has no joints");
+    if (node.skin >= 0 && !file.model.meshes[std::size_t(node.mesh)].jointed)
+        file.fault("nodes", index, "it has a 'skin' but its mesh has no joints");
 }
 
 // Each node has at most one parent, no node is its own ancestor, scenes begin at roots.

@@ -171,13 +171,8 @@ private:
     bool checkWhole(const Value& value, const Rule& rule, const Trail& trail) const {
         constexpr double kMax = 9007199254740992.0;
         if (value.isNumber() && value.number() >= 0 && value.number() < kMax &&
-            value.number() == double(std::size_t(value.number()))) {
-            if (value.isInteger()) return true;
-            Rule mild = rule;
-            mild.harmless = true;
-            breach(mild, value, fmt::format("'{}' is written with a fraction", rule.key), trail);
-            return true;
-        }
+            value.number() == double(std::size_t(value.number())))
+            return true;  // 1.0 and 1e0 are integers, too: glTF 2.0 specification, 2.7
         breach(rule, value, fmt::format("'{}' is not a non-negative integer", rule.key), trail);
         return false;
     }
@@ -249,6 +244,53 @@ private:
 };
 
 }  // namespace
+
+namespace {
+
+// 1.0 and 1e0 are integers, too (glTF 2.0 specification, 2.7), but not to tinygltf.
+void writeWhole(Value& value) {
+    if (value.isNumber() && !value.isInteger()) value = Value::makeNumber(value.number(), value.where());
+}
+
+void normalise(Value& value, std::span<const Rule> rules);
+
+void normalise(Value& value, const Rule& rule) {
+    const bool isIndex = rule.shape == Shape::Index || rule.shape == Shape::Integer;
+    if (isIndex) return writeWhole(value);
+    if (rule.shape == Shape::Object) return normalise(value, rule.rules);
+    if (rule.shape == Shape::IndexMap && value.isObject())
+        for (Member& member : value.members()) writeWhole(member.value);
+    if (!value.isArray()) return;
+    const Rule each{.key = rule.key,
+                    .shape = rule.shape == Shape::Objects     ? Shape::Object
+                             : rule.shape == Shape::Indices   ? Shape::Index
+                             : rule.shape == Shape::IndexMaps ? Shape::IndexMap
+                                                              : Shape::Any,
+                    .rules = rule.rules};
+    if (each.shape == Shape::Any) return;
+    for (Value& item : value.items()) normalise(item, each);
+}
+
+void normalise(Value& value, std::span<const Rule> rules) {
+    if (!value.isObject()) return;
+    const auto ruleOf = [&](const Member& member) {
+        return std::find_if(rules.begin(), rules.end(), [&](const Rule& r) { return member.key == r.key; });
+    };
+    std::erase_if(value.members(), [&](const Member& member) { return ruleOf(member) == rules.end(); });
+    for (Member& member : value.members()) normalise(member.value, *ruleOf(member));
+}
+
+}  // namespace
+
+void normalise(Value& json) {
+    normalise(json, documentRules());
+    for (const char* key : {"extensionsUsed", "extensionsRequired"}) {
+        Value* names = json.find(key);
+        if (!names || !names->isArray()) continue;
+        std::set<std::string> seen;
+        std::erase_if(names->items(), [&](const Value& name) { return !seen.insert(name.string()).second; });
+    }
+}
 
 void checkSchema(const File& file) {
     Walk walk(file);

@@ -146,8 +146,10 @@ constexpr Rule kMesh[] = {
 
 constexpr Rule kNodeLight[] = {index("light", "lights", true)};
 constexpr Rule kInstancing[] = {required({.key = "attributes", .shape = S::IndexMap, .list = "accessors"})};
+constexpr Rule kVisibility[] = {{.key = "visible", .shape = S::Flag}};
 constexpr Rule kNodeExtensions[] = {object("KHR_lights_punctual", kNodeLight),
-                                    object("EXT_mesh_gpu_instancing", kInstancing)};
+                                    object("EXT_mesh_gpu_instancing", kInstancing),
+                                    object("KHR_node_visibility", kVisibility)};
 constexpr Rule kNode[] = {index("camera", "cameras"),
                           index("mesh", "meshes"),
                           index("skin", "skins"),

@@ -9,6 +9,9 @@ namespace crevice::gltf {
 
 namespace {
 
+/// Trees that are looked for in scenes, over all of them: scenes may show the same hundreds of skins again and again.
+constexpr std::size_t kMostLooks = 10'000'000;
+
 /// The trees of all nodes, walked once: chains of a million nodes with as many joints are asked about in no time.
 /// checkRules() made sure that there are no cycles and that each node has one parent.
 class Trees {
@@ -104,14 +107,17 @@ void checkScenes(const File& file, const Trees& trees) {
     if (wanted.empty()) return;
     const auto& scenes = listIn(file.json, "scenes");
     std::vector<std::size_t> lastScene(file.model.nodes.size(), scenes.size());  // that shows a node
-    for (std::size_t i = 0; i < scenes.size(); ++i) {
+    std::size_t looks = kMostLooks;
+    for (std::size_t i = 0; i < scenes.size() && looks > 0; ++i) {
         const auto& roots = listIn(scenes[i], "nodes");
         for (const Value& root : roots) lastScene[std::size_t(root.number())] = i;
         const auto findMissing = [&]() -> int {
             for (const Value& root : roots)
                 if (const auto found = wanted.find(int(root.number())); found != wanted.end())
-                    for (const auto& [tree, skin] : found->second)
+                    for (const auto& [tree, skin] : found->second) {
                         if (lastScene[std::size_t(tree)] != i) return skin;
+                        if (--looks == 0) return -1;
+                    }
             return -1;
         };
         if (const int skin = findMissing(); skin >= 0)

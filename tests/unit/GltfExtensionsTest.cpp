@@ -178,5 +178,32 @@ TEST(GltfExtensions, SpecularGlossinessIsConverted) {
     EXPECT_NEAR(int(colour.image.pixel(1, 0)[1]), 0, 1);
 }
 
+// The hidden node's own mesh and light, and those below it; cameras stay.
+TEST(GltfExtensions, HiddenNodesAndTheirChildrenAreNotShown) {
+    Document document;
+    document.nodes = R"({"mesh": 0, "name": "shown", "extensions": {"KHR_node_visibility": {"visible": true}}},
+        {"mesh": 0, "name": "hidden", "children": [2], "translation": [1, 0, 0],
+         "extensions": {"KHR_node_visibility": {"visible": false}, "KHR_lights_punctual": {"light": 0}}},
+        {"mesh": 0, "name": "child", "camera": 0, "extensions": {"KHR_node_visibility": {}}},
+        {"extensions": {"KHR_lights_punctual": {"light": 0}}})";
+    document.roots = "0, 1, 3";
+    document.rest = R"(, "extensionsUsed": ["KHR_node_visibility", "KHR_lights_punctual"],
+        "extensionsRequired": ["KHR_node_visibility"],
+        "cameras": [{"type": "perspective", "perspective": {"yfov": 1, "znear": 0.1}}],
+        "extensions": {"KHR_lights_punctual": {"lights": [{"type": "point"}]}})";
+    Listener listener;
+    const Scene scene = document.load(&listener);
+    ASSERT_EQ(scene.instances.size(), 1u);
+    EXPECT_EQ(scene.instances[0].name, "shown");
+    EXPECT_EQ(scene.lights.size(), 1u);
+    ASSERT_EQ(scene.cameras.size(), 1u);
+    EXPECT_EQ(scene.cameras[0].position(), glm::vec3(1, 0, 0)) << "places count, hidden or not";
+    EXPECT_FALSE(contains(listener.text, "not read")) << listener.text;
+    document.nodes = R"({"mesh": 0, "extensions": {"KHR_node_visibility": {"visible": 1}}})";
+    document.roots = "0";
+    document.rest = R"(, "extensionsUsed": ["KHR_node_visibility"])";
+    EXPECT_TRUE(contains(document.error(), "'visible' must be true or false, found a number")) << document.error();
+}
+
 }  // namespace
 }  // namespace crevice

@@ -233,5 +233,45 @@ TEST(Gltf, HugePicturesAreNotDecoded) {
     EXPECT_TRUE(contains(listener.text, "2147483647 x 2147483647")) << listener.text;
 }
 
+// glTF 2.0 specification, 2.7: 1.0 and 1e0 are integers, wherever they stand.
+TEST(Gltf, IntegersMayBeWrittenAsDecimals) {
+    Document document;
+    document.attributes = R"("POSITION": 0.0)";
+    document.primitive = R"(, "indices": 1e0, "mode": 4.0)";
+    document.views = R"({"buffer": 0.0, "byteLength": 4.8e1}, {"buffer": 0, "byteOffset": 48.0, "byteLength": 8.0})";
+    document.accessors = R"({"bufferView": 0.0, "componentType": 5126.0, "count": 4.0, "type": "VEC3"},
+                            {"bufferView": 1.0, "componentType": 5123.0, "count": 3.0, "type": "SCALAR"})";
+    document.nodes = R"({"children": [1.0]}, {"mesh": 0.0})";
+    document.roots = "0.0";
+    Listener listener;
+    const Scene scene = document.load(&listener);
+    ASSERT_EQ(scene.instances.size(), 1u);
+    EXPECT_EQ(scene.meshes.at(0).indices, (std::vector<std::uint32_t>{0, 1, 2}));
+    EXPECT_FALSE(contains(listener.text, "fraction")) << listener.text;
+}
+
+// 3.7.2.1: colours are clamped to 0 … 1.
+TEST(Gltf, VertexColoursAreClamped) {
+    Document document;
+    const std::size_t start = document.bytes.size();
+    append<float>(document.bytes, {2, -1, 0.5f, 1, 0, 0, 0, 1.5f, 0, 0, 0, 0, 0, 0, 0, 0});
+    document.views += R"(, {"buffer": 0, "byteOffset": )" + std::to_string(start) + R"(, "byteLength": 64})";
+    document.accessors += R"(, {"bufferView": 2, "componentType": 5126, "count": 4, "type": "VEC4"})";
+    document.attributes += R"(, "NORMAL": 0, "COLOR_0": 2)";
+    const Scene scene = document.load();
+    EXPECT_EQ(scene.meshes.at(0).vertices.at(0).color, glm::vec4(1, 0, 0.5f, 1));
+    EXPECT_EQ(scene.meshes.at(0).vertices.at(1).color, glm::vec4(0, 0, 0, 1));
+}
+
+// 3.6.2.5: bounds of an accessor whose data is not in the file may be anything.
+TEST(Gltf, BoundsOfAccessorsWithoutDataAreNotChecked) {
+    Document document;
+    document.accessors = R"({"componentType": 5126, "count": 4, "type": "VEC3", "min": [-7, 0, 0], "max": [9, 9, 9]},
+                            {"bufferView": 1, "componentType": 5123, "count": 3, "type": "SCALAR"})";
+    Listener listener;
+    EXPECT_EQ(document.load(&listener).meshes.at(0).bounds.max, glm::vec3(0));
+    EXPECT_EQ(listener.text, "");
+}
+
 }  // namespace
 }  // namespace crevice
