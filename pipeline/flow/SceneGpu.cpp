@@ -1,6 +1,9 @@
 // One vertex and one index buffer for all meshes; one texture per picture and colour space.
 #include "flow/SceneGpu.h"
 
+#include <algorithm>
+
+#include "core/Memory.h"
 #include "gfx/Device.h"
 #include "gfx/Readback.h"
 
@@ -8,6 +11,8 @@ namespace crevice {
 namespace {
 
 constexpr std::size_t kShortVertices = 1 << 16;
+/// Of so many the scene's copy is given back together: a big mesh is not in memory twice.
+constexpr std::size_t kVerticesAtOnce = 1 << 16;
 
 void narrow(std::span<const std::uint32_t> indices, std::span<std::byte> out) {
     auto* to = reinterpret_cast<std::uint16_t*>(out.data());
@@ -67,8 +72,13 @@ void SceneGpu::uploadMeshes(Device& device, Scene* releasing) {
     for (std::size_t i = 0; i < meshes_.size(); ++i) {
         const Mesh& mesh = scene_.meshes[i];
         const MeshRange& range = meshes_[i];
-        layout_.pack(mesh.vertices, vertices_.data().subspan(std::uint64_t(range.vertexOffset) * stride,
-                                                             mesh.vertices.size() * stride));
+        const std::span<std::byte> out = vertices_.data().subspan(std::uint64_t(range.vertexOffset) * stride);
+        for (std::size_t first = 0; first < mesh.vertices.size(); first += kVerticesAtOnce) {
+            const std::size_t count = std::min(kVerticesAtOnce, mesh.vertices.size() - first);
+            layout_.pack(std::span(mesh.vertices).subspan(first, count), out.subspan(first * stride, count * stride));
+            if (releasing)
+                releasePages(std::as_writable_bytes(std::span(releasing->meshes[i].vertices).subspan(first, count)));
+        }
         if (range.sixteenBit)
             narrow(mesh.indices, shortIndices_.data().subspan(range.firstIndex * sizeof(std::uint16_t)));
         else

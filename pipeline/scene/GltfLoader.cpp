@@ -1,7 +1,7 @@
 // The table of contents of loading a glTF.
 #include "scene/GltfLoader.h"
 
-#include "scene/GltfParts.h"
+#include "scene/GltfRelease.h"
 
 namespace crevice {
 
@@ -16,14 +16,15 @@ void dropBrokenNormalMaps(const std::set<int>& broken, Scene& scene) {
 }  // namespace
 
 Scene loadGltf(const std::filesystem::path& path, const LoadOptions& options) {
-    const gltf::File file = gltf::open(path, options);
+    gltf::File file = gltf::open(path, options);
     Scene scene;
     scene.name = path.stem().string();
 
     gltf::Images images(file);
     const gltf::Materials materials = gltf::readMaterials(file, images);
     scene.materials = materials.scene;
-    gltf::Meshes meshes(file, materials, scene.meshes);
+    gltf::Release release(file);
+    gltf::Meshes meshes(file, materials, release, scene.meshes);
     gltf::readNodes(file, meshes, scene);
     scene.textures = images.decode();
     dropBrokenNormalMaps(images.broken(), scene);

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "scene/GltfParts.h"
+#include "scene/GltfRelease.h"
 
 namespace crevice::gltf {
 
@@ -99,6 +99,9 @@ std::vector<std::uint32_t> toList(int mode, std::vector<std::uint32_t> indices) 
     return list;
 }
 
+/// Of so many the bytes are given back together.
+constexpr std::size_t kVerticesAtOnce = 1 << 16;
+
 Vertex makeVertex(const Attributes& from, std::size_t i) {
     Vertex vertex;
     vertex.position = from.position.at<3>(i);
@@ -117,15 +120,33 @@ Vertex makeVertex(const Attributes& from, std::size_t i) {
     return vertex;
 }
 
+glm::vec3 flatNormal(const Vertex* corner) {
+    return unitOr(glm::cross(corner[1].position - corner[0].position, corner[2].position - corner[0].position),
+                  {0, 0, 1});
+}
+
+bool sharesNothing(const Mesh& mesh) {
+    if (mesh.vertices.size() != mesh.indices.size()) return false;
+    for (std::size_t i = 0; i < mesh.indices.size(); ++i)
+        if (mesh.indices[i] != i) return false;
+    return true;
+}
+
 // Without normals glTF asks for flat ones: every triangle gets its own three vertices.
 void makeFlat(Mesh& mesh) {
+    if (sharesNothing(mesh)) {
+        for (std::size_t i = 0; i + 2 < mesh.vertices.size(); i += 3) {
+            const glm::vec3 normal = flatNormal(&mesh.vertices[i]);
+            for (std::size_t k = 0; k < 3; ++k) mesh.vertices[i + k].normal = normal;
+        }
+        return;
+    }
     std::vector<Vertex> vertices;
     vertices.reserve(mesh.indices.size());
     for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
         Vertex corner[3] = {mesh.vertices[mesh.indices[i]], mesh.vertices[mesh.indices[i + 1]],
                             mesh.vertices[mesh.indices[i + 2]]};
-        const glm::vec3 normal = unitOr(
-            glm::cross(corner[1].position - corner[0].position, corner[2].position - corner[0].position), {0, 0, 1});
+        const glm::vec3 normal = flatNormal(corner);
         for (Vertex& vertex : corner) {
             vertex.normal = normal;
             vertices.push_back(vertex);
@@ -207,6 +228,7 @@ std::optional<Mesh> Meshes::readPrimitive(int meshIndex, std::size_t index, cons
     const auto position = primitive.attributes.find("POSITION");
     if (position == primitive.attributes.end()) return std::nullopt;  // legal, and nothing to draw
     const std::size_t count = file_.model.accessors[std::size_t(position->second)].count;
+    Release::Reading reading(release_, primitive);
     const std::span<const float> weights = deformation.weights.empty() ? from.weights : deformation.weights;
     countVertices(count, timesRead(primitive, deformation, weights), 0, meshIndex);
     Attributes attributes = readAttributes(file_, meshIndex, primitive, sets, !deformation.joints.empty());
@@ -218,7 +240,10 @@ std::optional<Mesh> Meshes::readPrimitive(int meshIndex, std::size_t index, cons
     mesh.indices = toList(primitive.mode, readIndices(file_, meshIndex, primitive, count));
     if (mesh.indices.empty()) return std::nullopt;
     mesh.vertices.reserve(count);
-    for (std::size_t i = 0; i < count; ++i) mesh.vertices.push_back(makeVertex(attributes, i));
+    for (std::size_t i = 0; i < count; ++i) {
+        if (i % kVerticesAtOnce == 0 && attributes.weights.empty()) reading.passed(i);
+        mesh.vertices.push_back(makeVertex(attributes, i));
+    }
     bend(file_, meshIndex, attributes, deformation.joints, mesh.vertices);
     const bool hasNormals = attributes.normal.components != 0;
     if (!hasNormals && mesh.topology == MeshTopology::Triangles) makeFlat(mesh);
@@ -231,6 +256,14 @@ std::optional<Mesh> Meshes::readPrimitive(int meshIndex, std::size_t index, cons
     }
     addToBounds(file_, meshIndex, mesh);
     return mesh;
+}
+
+void Meshes::expect(const std::vector<std::pair<int, Deformation>>& wanted) {
+    std::set<Key> keys;
+    std::map<int, std::size_t> times;
+    for (const auto& [mesh, deformation] : wanted)
+        if (keys.insert({mesh, deformation.skin, deformation.weights}).second) ++times[mesh];
+    release_.expect(times);
 }
 
 const std::vector<Part>& Meshes::parts(int mesh, const Deformation& deformation) {

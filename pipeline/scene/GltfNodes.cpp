@@ -71,6 +71,7 @@ public:
     void build() {
         const std::vector<Placed> placed = placeNodes(file_, pose_);
         for (const Placed& node : placed) world_[node.node] = node.world;
+        meshes_.expect(wantedMeshes(placed));
         for (const Placed& node : placed) {
             const NodePart& from = file_.model.nodes[std::size_t(node.node)];
             if (from.mesh >= 0 && node.visible) addMesh(node, from);
@@ -88,6 +89,20 @@ public:
 private:
     static std::string nameOf(const NodePart& node, const char* kind, int index) {
         return node.name.empty() ? fmt::format("{} {}", kind, index) : node.name;
+    }
+
+    // As addMesh() will ask for them; joints are not known yet and do not tell meshes apart.
+    std::vector<std::pair<int, Deformation>> wantedMeshes(const std::vector<Placed>& placed) const {
+        std::vector<std::pair<int, Deformation>> wanted;
+        for (const Placed& node : placed) {
+            const NodePart& from = file_.model.nodes[std::size_t(node.node)];
+            if (from.mesh >= 0 && node.visible) wanted.emplace_back(from.mesh, deformationOf(node.node, from));
+        }
+        return wanted;
+    }
+
+    Deformation deformationOf(int node, const NodePart& from) const {
+        return {.skin = from.skin, .weights = posed(pose_.weights, node, from.weights)};
     }
 
     /// The joints' matrices in world space, and whether most of them mirror.
@@ -120,7 +135,7 @@ private:
     }
 
     void addMesh(const Placed& node, const NodePart& from) {
-        Deformation deformation{.skin = from.skin, .weights = posed(pose_.weights, node.node, from.weights)};
+        Deformation deformation = deformationOf(node.node, from);
         const Joints none;
         const Joints& joints = from.skin >= 0 ? jointsOf(from.skin) : none;
         deformation.joints = joints.matrices;

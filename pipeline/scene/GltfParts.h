@@ -77,7 +77,8 @@ std::string_view readContainer(File& file);
 bool isSupportedExtension(const std::string& name);
 /// Types, ranges and references of everything in the JSON. Throws Error with the first breach that does harm.
 void checkSchema(const File& file);
-/// Drops what the tables do not name, so that nobody searches or copies it again; writes 1.0 as 1 where it is an integer.
+/// Drops what the tables do not name, so that nobody searches or copies it again; writes 1.0 as 1 where it is an
+/// integer.
 void normalise(Value& json);
 /// What spans several objects: trees, attributes, skins, animations, cameras.
 void checkRules(const File& file);
@@ -272,11 +273,16 @@ void bend(const File& file, int mesh, const Attributes& from, std::span<const gl
           std::vector<Vertex>& vertices);
 glm::vec3 unitOr(const glm::vec3& vector, const glm::vec3& otherwise);
 
+class Release;
+
 /// Meshes read once for each deformation, when a node first wants them.
 class Meshes {
 public:
-    Meshes(const File& file, const Materials& materials, std::vector<Mesh>& meshes)
-        : file_(file), materials_(materials), meshes_(meshes) {}
+    /// `release` gets the file's bytes back that no mesh needs any more.
+    Meshes(const File& file, const Materials& materials, Release& release, std::vector<Mesh>& meshes)
+        : file_(file), materials_(materials), release_(release), meshes_(meshes) {}
+    /// All that parts() will be asked for: meshes as nodes deform them. To be called once, before the first.
+    void expect(const std::vector<std::pair<int, Deformation>>& wanted);
     /// The drawable primitives of a mesh.
     const std::vector<Part>& parts(int mesh, const Deformation& deformation);
 
@@ -286,9 +292,11 @@ private:
     void countVertices(std::size_t vertices, std::size_t times, std::size_t indices, int mesh);
 
     const File& file_;
+    using Key = std::tuple<int, int, std::vector<float>>;  // mesh, skin, weights
     const Materials& materials_;
+    Release& release_;
     std::vector<Mesh>& meshes_;
-    std::map<std::tuple<int, int, std::vector<float>>, std::vector<Part>> parts_;
+    std::map<Key, std::vector<Part>> parts_;
     std::size_t vertexCount_ = 0, indexCount_ = 0;
 };
 

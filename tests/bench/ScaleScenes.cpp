@@ -2,6 +2,7 @@
 #include "ScaleScenes.h"
 
 #include <cmath>
+#include <cstring>
 #include <fstream>
 #include <string>
 #include <vector>
@@ -38,6 +39,9 @@ void append(std::vector<char>& bytes, const T& value) {
     bytes.insert(bytes.end(), begin, begin + sizeof value);
 }
 
+/// Along x, of a square among others.
+float offsetOf(std::uint32_t square) { return 1.1f * float(square); }
+
 // One wavy square: positions, normals, texture coordinates, indices, one after the other.
 std::vector<char> wavySquare(std::uint32_t side, float offset) {
     std::vector<char> bytes;
@@ -62,6 +66,18 @@ std::vector<char> wavySquare(std::uint32_t side, float offset) {
     return bytes;
 }
 
+// 'min' and 'max' of a square's positions.
+std::string boundsOf(const std::vector<char>& square, std::uint64_t vertices) {
+    Aabb box;
+    for (std::uint64_t i = 0; i < vertices; ++i) {
+        glm::vec3 place;
+        std::memcpy(&place, square.data() + i * sizeof place, sizeof place);
+        box.add(place);
+    }
+    return fmt::format(R"(,"min":[{},{},{}],"max":[{},{},{}])", box.min.x, box.min.y, box.min.z, box.max.x, box.max.y,
+                       box.max.z);
+}
+
 std::string jsonFor(std::uint32_t meshes, std::uint32_t side, std::uint64_t meshBytes) {
     const std::uint64_t vertices = std::uint64_t(side + 1) * (side + 1), indices = std::uint64_t(side) * side * 6;
     std::string views, accessors, primitives, nodes, roots;
@@ -78,9 +94,10 @@ std::string jsonFor(std::uint32_t meshes, std::uint32_t side, std::uint64_t mesh
             return fmt::format(R"({{"bufferView":{},"componentType":{},"count":{},"type":"{}"{}}})", 4 * m + i,
                                component, count, type, more);
         };
-        accessors += comma + accessor(0, vertices, "VEC3", 5126, R"(,"min":[-1000,-1,0],"max":[1000,1,1])") + "," +
-                     accessor(1, vertices, "VEC3", 5126, "") + "," + accessor(2, vertices, "VEC2", 5126, "") + "," +
-                     accessor(3, indices, "SCALAR", 5125, "");
+        accessors += comma +
+                     accessor(0, vertices, "VEC3", 5126, boundsOf(wavySquare(side, offsetOf(m)), vertices).c_str()) +
+                     "," + accessor(1, vertices, "VEC3", 5126, "") + "," + accessor(2, vertices, "VEC2", 5126, "") +
+                     "," + accessor(3, indices, "SCALAR", 5125, "");
         primitives += fmt::format(
             R"({}{{"primitives":[{{"attributes":{{"POSITION":{},"NORMAL":{},"TEXCOORD_0":{}}},"indices":{}}}]}})",
             comma, 4 * m, 4 * m + 1, 4 * m + 2, 4 * m + 3);
@@ -148,7 +165,7 @@ std::uint64_t writeManyTriangles(const std::filesystem::path& path, std::uint32_
     out.write(json.data(), std::streamsize(json.size()));
     word(binaryBytes), word(0x004e4942);
     for (std::uint32_t m = 0; m < meshes; ++m) {
-        const std::vector<char> bytes = wavySquare(side, 1.1f * float(m));
+        const std::vector<char> bytes = wavySquare(side, offsetOf(m));
         out.write(bytes.data(), std::streamsize(bytes.size()));
     }
     if (!out.flush()) throw Error(fmt::format("cannot write '{}'", path.string()), "is the disk full?");
