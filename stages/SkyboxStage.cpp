@@ -1,4 +1,5 @@
 // Fills what no geometry covered: the scene's environment, its gradient sky, or nothing.
+#include "CocosTargets.h"
 #include "flow/RenderStage.h"
 
 namespace crevice {
@@ -13,9 +14,10 @@ Value colorValue(const glm::vec3& color) {
 class SkyboxStage final : public RenderStage {
 public:
     void declare(StageIo& io) override {
-        io.color("cc_lighting_resultMap");
+        io.color(litTarget(io.profile()));
         io.depth("depth", DepthUse::Test);
-        draw_ = io.fullscreen("skybox");
+        draw_ = io.fullscreen(isCocos(io.profile()) ? "cocos-skybox" : "skybox");
+        if (io.profile() == Profile::Cocos36) io.define(draw_, "COCOS_VERSION", "36");
     }
     void activate(StageSetup& setup) override {
         const Sky& sky = setup.scene().sky;

@@ -26,6 +26,15 @@ namespace fs = std::filesystem;
 constexpr std::size_t kMaxEffectBytes = 16u << 20;
 /// Flattened stages that are kept: the passes of a technique share them.
 constexpr std::size_t kKeptStages = 24;
+/// What is drawn reads the image of a subpass input at its own pixel: passes here are render passes of their own.
+constexpr std::string_view kSubpassHead =
+    "#define subpassInput sampler2D\n#define isubpassInput isampler2D\n#define usubpassInput usampler2D\n"
+    "#define subpassLoad(subpassImage) texelFetch(subpassImage, ivec2(gl_FragCoord.xy), 0)\n";
+
+bool readsSubpassInputs(const StageInterface& stage) {
+    const auto isInput = [](const auto& declaration) { return declaration.kind == InterfaceKind::SubpassInput; };
+    return std::any_of(stage.declarations.begin(), stage.declarations.end(), isInput);
+}
 
 /// main() of a stage with an entry is its last line.
 void addEntry(StageText& text, const ProgramReference& program, const SourceLoc& where, Problems& problems) {
@@ -172,6 +181,7 @@ std::vector<StageSource> CocosEffects::stages(const EffectAsset& effect, const E
     }
     const std::vector<StageMacro> macros = mergeMacros(texts);
     Defines values = request.defines;
+    for (const auto& [name, value] : request.constants) values.emplace(name, value);
     for (const auto& [name, value] : pass.embeddedMacros) values[name] = value;  // They win: Cocos merges them last.
     for (const auto& [name, value] : values)
         if (value.find('\n') != std::string::npos)
@@ -179,6 +189,7 @@ std::vector<StageSource> CocosEffects::stages(const EffectAsset& effect, const E
     addUniformVectors(texts, interfaces, values);
     NumberingOptions numbering = state_->options.numbering;
     numbering.rebindByName = numbering.rebindByName && request.rebindLiterals;
+    numbering.subpassSamplers = !request.checkOnly;
     numberStages(texts, interfaces, bindings, numbering, problems);
     std::vector<StageSource> sources;
     for (StageText& text : texts) {
@@ -186,6 +197,8 @@ std::vector<StageSource> CocosEffects::stages(const EffectAsset& effect, const E
         source.stage = text.stage;
         source.numbered = true;
         source.head = makeHead(text, macros, values);
+        if (numbering.subpassSamplers && readsSubpassInputs(interfaces[sources.size() - 1]))
+            source.head += kSubpassHead;
         source.flat = std::move(text.flat);
         source.text = source.flat.text;
     }

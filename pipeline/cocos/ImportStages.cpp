@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "cocos/MtlInstance.h"
+#include "cocos/TextureSampler.h"
 #include "core/Text.h"
 
 namespace crevice::cocos {
@@ -111,6 +112,7 @@ std::vector<Value> StageImporter::geometryStage(const RppStage& stage) {
     if (!opaque.items().empty()) out.set("queues", opaque);
     noteFields(stage, {});
     std::vector<Value> stages = listOf(std::move(out));
+    if (forward) addSky(stage, "finalColor", stages);
     if (forward && !blended.items().empty()) {
         Value second = begin("TransparentStage", stage, "Transparent");
         Value writes = Value::makeArray();
@@ -124,13 +126,29 @@ std::vector<Value> StageImporter::geometryStage(const RppStage& stage) {
     return stages;
 }
 
+/// Cocos draws the sky as a model of its own among the opaque ones; here a stage does.
+void StageImporter::addSky(const RppStage& stage, const char* target, std::vector<Value>& stages) {
+    if (!factsOf("SkyboxStage")) return;
+    Value out = begin("SkyboxStage", stage, "Sky");
+    if (target) {
+        Value writes = Value::makeArray();
+        writes.items().push_back(word(target));
+        out.set("writes", std::move(writes));
+    }
+    stages.push_back(std::move(out));
+}
+
+/// The sky comes first: the lighting draws where something is, and blended objects follow it.
 std::vector<Value> StageImporter::lightingStage(const RppStage& stage) {
+    std::vector<Value> stages;
+    addSky(stage, nullptr, stages);
     Value out = begin("LightingStage", stage);
     addMaterial(out, stage, "_deferredMaterial", "pipeline/deferred-lighting");
     noteFields(stage, {"_deferredMaterial"});
     const Value blended = queuesOf(stage, true);
     if (!blended.items().empty()) out.set("queues", blended);
-    return listOf(std::move(out));
+    stages.push_back(std::move(out));
+    return stages;
 }
 
 std::vector<Value> StageImporter::postProcessStage(const RppStage& stage) {
@@ -223,7 +241,10 @@ void StageImporter::addMaterialOf(Value& out, const AssetRef& ref, const std::st
     const std::string effect = project_.effectName(file->path);
     const auto textures = [&](const AssetRef& texture, const EffectProperty& property) {
         const MetaAsset* picture = project_.metas().find(texture.uuid);
-        if (picture && isPicture(picture->path)) return Value::makeString(picture->path.string(), texture.where);
+        if (picture && isPicture(picture->path)) {
+            const std::string words = samplerWords(samplerOf(*picture, project_.metas()));
+            return Value::makeString(picture->path.string() + words, texture.where);
+        }
         problems_.note(texture.where,
                        fmt::format("texture '{}' of material '{}' is left out", property.name, mtl->name),
                        "pictures must be PNG, JPEG, WebP or EXR; images of the pipeline are wired with \"reads\"");

@@ -23,6 +23,8 @@ private:
     std::vector<Value> shadowStage(const RppStage& stage);
     std::vector<Value> geometryStage(const RppStage& stage);
     std::vector<Value> lightingStage(const RppStage& stage);
+    /// `target`: what it draws into; null: the lit picture.
+    void addSky(const RppStage& stage, const char* target, std::vector<Value>& stages);
     std::vector<Value> postProcessStage(const RppStage& stage);
     std::vector<Value> userStage(const RppStage& stage);
 

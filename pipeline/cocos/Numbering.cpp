@@ -190,7 +190,7 @@ private:
 };
 
 LayoutNumbers numbersOf(const InterfaceDeclaration& declaration, ShaderStageBits stage, const Numbers& numbers,
-                        Rebinding& rebinding) {
+                        Rebinding& rebinding, bool subpassSamplers) {
     LayoutNumbers out;
     if (declaration.kind == InterfaceKind::Input || declaration.kind == InterfaceKind::Output) {
         const bool input = declaration.kind == InterfaceKind::Input;
@@ -202,7 +202,7 @@ LayoutNumbers numbersOf(const InterfaceDeclaration& declaration, ShaderStageBits
     const BindingSlot slot = rebinding.slotOf(declaration);
     out.set = static_cast<int>(slot.set);
     out.binding = static_cast<int>(slot.binding);
-    out.attachment = declaration.literal.attachment;
+    out.attachment = subpassSamplers ? -1 : declaration.literal.attachment;
     return out;
 }
 
@@ -238,7 +238,7 @@ void numberStages(std::vector<StageText>& stages, const std::vector<StageInterfa
     for (std::size_t i = 0; i < stages.size(); ++i) {
         std::vector<LayoutNumbers> written;
         for (const InterfaceDeclaration& declaration : interfaces[i].declarations)
-            written.push_back(numbersOf(declaration, stages[i].stage, numbers, rebinding));
+            written.push_back(numbersOf(declaration, stages[i].stage, numbers, rebinding, options.subpassSamplers));
         stages[i].flat.text = writeLayouts(stages[i], interfaces[i], written);
     }
 }

@@ -107,9 +107,10 @@ ImportedCamera readCamera(const Value& component, const glm::mat4& world, Proble
     const double shutter = stopOf(fields, "_shutter", 7, kShutters, problems);
     const double iso = stopOf(fields, "_iso", 0, kIsos, problems);
     out.ev = std::log2(aperture * aperture / shutter * 100 / iso);
-    constexpr std::int64_t kClearColor = 1;
-    if ((fields.integer("_clearFlags", 7) & kClearColor) != 0)
-        out.clearColor = readVector(component, "_color", {0.2f, 0.2f, 0.2f, 1}, problems);
+    constexpr std::int64_t kClearColor = 1, kClearSky = 8;
+    const std::int64_t flags = fields.integer("_clearFlags", 7);
+    out.showsSky = (flags & kClearSky) != 0;
+    if ((flags & kClearColor) != 0) out.clearColor = readVector(component, "_color", {0.2f, 0.2f, 0.2f, 1}, problems);
     return out;
 }
 

@@ -14,6 +14,7 @@ struct ImportedCamera {
     std::int64_t priority = 0;
     double ev = 0;  ///< Exposure value at ISO 100: log2(N² / t x 100 / ISO).
     std::optional<glm::vec4> clearColor{};
+    bool showsSky = false;  ///< It clears with the sky.
 };
 
 /// `world`: of the node. Fields that are missing have the engine's defaults.

@@ -63,6 +63,13 @@ ImportedShadows readShadows(const Value& info, Problems& problems) {
     if (!fields.boolean("_enabled", false)) return out;
     out.maps = fields.integer("_type", 0) == kShadowMaps;
     out.planar = !out.maps;
+    constexpr float kLargest = 8192;
+    const std::string_view key = fields.firstOf({"_size", "_shadowMapSize"});
+    const Value* written = fields.find(key);
+    if (written && written->isObject()) {  // early versions have one number for lists of sizes
+        const glm::vec4 size = readVector(info, key, glm::vec4(0), problems);
+        if (size.x >= 1 && size.y >= 1 && size.x <= kLargest && size.y <= kLargest) out.size = glm::uvec2(size);
+    }
     if (!fields.find("_bias") && !fields.find("_pcf")) return out;
     const LightShadow usual;
     out.look = LightShadow{.bias = float(fields.number("_bias", double(usual.bias))),
@@ -72,11 +79,16 @@ ImportedShadows readShadows(const Value& info, Problems& problems) {
     return out;
 }
 
-AssetRef litSkybox(const Value& info, bool hdr, Problems& problems) {
+ImportedSky readSkybox(const Value& info, bool hdr, Problems& problems) {
     const FieldReader fields(info, problems);
-    const bool lights = fields.integer("_envLightingType", fields.boolean("_useIBL", false) ? 1 : 0) != 0;
-    if (!fields.boolean("_enabled", false) || !lights) return {};
-    return fields.asset(hdr ? fields.firstOf({"_envmapHDR", "_envmap"}) : fields.firstOf({"_envmapLDR", "_envmap"}));
+    ImportedSky sky;
+    sky.enabled = fields.boolean("_enabled", false);
+    sky.lights = fields.integer("_envLightingType", fields.boolean("_useIBL", false) ? 1 : 0) != 0;
+    sky.picture = fields.asset(fields.firstOf({hdr ? "_envmapHDR" : "_envmapLDR", "_envmap"}));
+    const Value* material = fields.find(fields.firstOf({"_editableMaterial", "_skyboxMaterial"}));
+    sky.ownEffect = material && !material->isNull();
+    sky.rotation = fields.number("_rotationAngle", 0);
+    return sky;
 }
 
 }  // namespace crevice::cocos

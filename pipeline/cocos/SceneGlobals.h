@@ -21,10 +21,18 @@ struct ImportedShadows {
     bool maps = false;                  ///< Shadows are on, and are maps.
     bool planar = false;                ///< They are on, and are flattened onto a plane.
     std::optional<LightShadow> look{};  ///< Up to 3.3 lights have none of their own.
+    glm::uvec2 size{0};                 ///< Texels of the map; 0 = it is not said.
 };
 ImportedShadows readShadows(const Value& info, Problems& problems);
 
-/// cc.SkyboxInfo: the picture that lights; nothing where the sky is off or lights nothing.
-AssetRef litSkybox(const Value& info, bool hdr, Problems& problems);
+/// cc.SkyboxInfo.
+struct ImportedSky {
+    bool enabled = false;
+    bool lights = false;     ///< Its picture lights (_envLightingType, _useIBL); without, the ambient light alone.
+    bool ownEffect = false;  ///< A material of the user's draws it.
+    AssetRef picture{};      ///< Of the half that HDR or its absence asks for.
+    double rotation = 0;     ///< Degrees about y.
+};
+ImportedSky readSkybox(const Value& info, bool hdr, Problems& problems);
 
 }  // namespace crevice::cocos

@@ -10,6 +10,7 @@
 #include "cocos/SceneComponents.h"
 #include "cocos/SceneGlobals.h"
 #include "cocos/SceneModels.h"
+#include "cocos/SceneSky.h"
 #include "cocos/TakeOver.h"
 
 namespace crevice::cocos {
@@ -130,13 +131,11 @@ private:
             if (!lights_) cameras_.back().camera.name = name;
             return;
         }
-        if (type == "cc.Canvas" && !lights_) {
-            ++skipped_[type];
-            return;
-        }
         if (!lights_) return;
         if (auto light = readLight(component, world, hdr_, exposure_, problems_)) {
             light->name = name;
+            const bool sun = light->type == LightType::Directional && light->castsShadow;
+            cascades_ = cascades_ || (sun && fields.integer("_csmLevel", 1) > 1);
             if (fields.boolean("_useColorTemperature", false)) ++skipped_["colour temperature of lights"];
             out_.scene.lights.push_back(std::move(*light));
         } else if (type == "cc.MeshRenderer" || type == "cc.SkinnedMeshRenderer" || type == "cc.ModelComponent") {
@@ -272,6 +271,7 @@ private:
         if (!cameras_.empty()) {
             ev = cameras_.front().ev;
             out_.background = cameras_.front().clearColor;
+            showsSky_ = cameras_.front().showsSky;
         }
         out_.scene.exposureEv = float(ev);
         exposure_ = exposureOf(ev);
@@ -281,39 +281,67 @@ private:
         const Value none = Value::makeObject();
         const Value* shadows = globals ? section(graph, *globals, {"shadows", "_shadows"}) : nullptr;
         takeShadows(readShadows(shadows ? *shadows : none, problems_));
-        if (!globals) return;
-        const Value* ambient = section(graph, *globals, {"ambient", "_ambient"});
-        if (ambient) out_.scene.ambient = readAmbient(*ambient, hdr_, exposure_, problems_);
-        if (const Value* fog = section(graph, *globals, {"fog", "_fog"}))
+        const Value* ambient = globals ? section(graph, *globals, {"ambient", "_ambient"}) : nullptr;
+        const Value& light = ambient ? *ambient : none;
+        out_.scene.ambient = readAmbient(light, hdr_, exposure_, problems_);
+        if (const Value* fog = globals ? section(graph, *globals, {"fog", "_fog"}) : nullptr)
             out_.scene.fog = readFog(*fog, exposure_, problems_);
-        const Value* skybox = section(graph, *globals, {"_skybox", "skybox"});
-        if (skybox && FieldReader(*skybox, problems_).boolean("_enabled", false))
-            takeSkybox(litSkybox(*skybox, hdr_, problems_),
-                       readSkyIlluminance(ambient ? *ambient : none, hdr_, exposure_, problems_));
+        if (const Value* skybox = globals ? section(graph, *globals, {"_skybox", "skybox"}) : nullptr)
+            takeSky(*skybox, readSkyIlluminance(light, hdr_, exposure_, problems_));
+        noteDarkness(light);
+    }
+
+    /// The exposure of a .scene is that of daylight: nothing else would say why the picture is black.
+    void noteDarkness(const Value& ambient) {
+        const Ambient& around = *out_.scene.ambient;
+        const bool dark = around.sky == glm::vec3(0) && around.ground == glm::vec3(0) && !litByEnvironment(out_.scene);
+        if (!out_.scene.lights.empty()) return;
+        if (dark)
+            problems_.warning(ambient.where(),
+                              "nothing lights this scene: it has no lights, and its ambient light is 0",
+                              "add a light, or raise '_skyIllum'");
+        else
+            problems_.note({}, "the scene has no lights: its ambient light or its sky alone lights it");
     }
 
     void takeShadows(const ImportedShadows& shadows) {
         if (shadows.planar) ++skipped_["planar shadows"];
+        if (shadows.maps && shadows.size != glm::uvec2(0)) out_.shadowMap = shadows.size;
+        if (shadows.maps && cascades_) ++skipped_["cascades of shadow maps: the light has one map"];
         for (Light& light : out_.scene.lights) {
             light.castsShadow = light.castsShadow && shadows.maps;
             if (!light.shadow) light.shadow = shadows.look;
         }
     }
 
-    void takeSkybox(const AssetRef& picture, double illuminance) {
-        const MetaAsset* asset = picture ? project_.metas().find(picture.uuid) : nullptr;
-        const std::string ending = asset ? asset->path.extension().string() : "";
-        if (ending != ".hdr" && ending != ".HDR" && ending != ".exr" && ending != ".EXR") {
-            ++skipped_["the skybox"];
+    void takeSky(const Value& info, double illuminance) {
+        const ImportedSky sky = readSkybox(info, hdr_, problems_);
+        if (!sky.enabled || (!sky.lights && !showsSky_)) return;
+        if (sky.ownEffect) ++skipped_["the material of the sky"];
+        const MetaAsset* asset = sky.picture ? project_.metas().find(sky.picture.uuid) : nullptr;
+        if (!asset || !isPanorama(asset->path)) {
+            noteSky(sky, asset);
             return;
         }
         try {
-            out_.scene.environment = loadEnvironment(asset->path, options_.log);
+            out_.scene.environment = readSky(*asset, options_.log, options_.limits);
             out_.scene.environment->intensity = float(illuminance);
+            out_.scene.environment->rotation = float(glm::radians(sky.rotation));
+            out_.scene.environment->visible = showsSky_;
+            out_.scene.environment->lights = sky.lights;
         } catch (const Error& error) {
-            problems_.warning(picture.where,
-                              fmt::format("the skybox is left out: {}", error.problems().front().message));
+            problems_.warning(sky.picture.where,
+                              fmt::format("the sky is left out: {}", error.problems().front().message));
         }
+    }
+
+    void noteSky(const ImportedSky& sky, const MetaAsset* asset) {
+        const std::string what = asset         ? fmt::format("'{}' is no panorama", asset->path.filename().string())
+                                 : sky.picture ? fmt::format("no .meta has its uuid '{}'", sky.picture.uuid)
+                                               : "it has no picture";
+        problems_.note(sky.picture.where, fmt::format("the sky is left out: {}", what),
+                       asset || !sky.picture ? "skies are .hdr, .exr, .png, .jpg or .webp, twice as wide as high"
+                                             : "the engine's own skies are in its folder: --engine DIR");
     }
 
     void noteSkipped() {
@@ -333,7 +361,7 @@ private:
     std::vector<Place> path_;        ///< From the root to the node that is visited.
     std::map<int, int> unshadowed_;  ///< Material → the same without CC_RECEIVE_SHADOW.
     std::size_t visited_ = 0;
-    bool hdr_ = true, lights_ = false;
+    bool hdr_ = true, lights_ = false, showsSky_ = true, cascades_ = false;
     double exposure_ = 1;
 };
 

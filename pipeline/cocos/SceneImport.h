@@ -14,6 +14,7 @@ namespace crevice::cocos {
 struct ImportedScene {
     Scene scene{};
     std::optional<glm::vec4> background{};  ///< Clear colour of the first camera, where it clears colour.
+    std::optional<glm::uvec2> shadowMap{};  ///< Texels of the maps, where shadows are maps and the scene says them.
 };
 
 /// Units: illuminance in lux, candela = luminance x pi x size² for sphere and spot lights, exposure from aperture,

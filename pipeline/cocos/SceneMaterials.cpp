@@ -5,22 +5,10 @@
 
 #include "cocos/StandardMaterial.h"
 #include "cocos/Tangents.h"
+#include "cocos/TextureSampler.h"
 
 namespace crevice::cocos {
 namespace {
-
-/// Words of Cocos' texture metas.
-TextureWrap wrapOf(const Value& userData, const char* key) {
-    const Value* word = userData.isObject() ? userData.find(key) : nullptr;
-    if (!word || !word->isString()) return TextureWrap::Repeat;
-    if (word->string() == "clamp-to-edge" || word->string() == "clamp-to-border") return TextureWrap::Clamp;
-    return word->string() == "mirrored-repeat" ? TextureWrap::Mirror : TextureWrap::Repeat;
-}
-
-std::string filterOf(const Value& userData, const char* key, const char* otherwise) {
-    const Value* word = userData.isObject() ? userData.find(key) : nullptr;
-    return word && word->isString() ? word->string() : otherwise;
-}
 
 const TypedValue* textureOf(const Mtl& mtl, std::string_view name) {
     for (const MtlPass& pass : mtl.passes)
@@ -113,29 +101,15 @@ void SceneMaterials::translate(SceneMaterial& material) {
     }
 }
 
-SamplerDesc SceneMaterials::samplerOf(const MetaAsset& asset) {
-    // A picture's own sampler stands in its part of kind "texture".
-    const MetaAsset* texture = &asset;
-    if (!asset.isSubAsset()) {
-        const auto parts = project_.metas().parts(asset.uuid, "texture");
-        if (!parts.empty()) texture = parts.front();
-    }
-    const Value& words = texture->userData;
-    const std::string mip = filterOf(words, "mipfilter", "none");
-    return {.wrapU = wrapOf(words, "wrapModeS"),
-            .wrapV = wrapOf(words, "wrapModeT"),
-            .linearMag = filterOf(words, "magfilter", "linear") != "nearest",
-            .linearMin = filterOf(words, "minfilter", "linear") != "nearest",
-            .mipmaps = mip != "none",
-            .linearMip = mip == "linear"};
-}
-
 Value SceneMaterials::useTexture(const AssetRef& texture, bool srgb) {
     const auto [known, isNew] = textures_.emplace(std::make_pair(texture.uuid, srgb), -1);
     if (!isNew) return known->second < 0 ? Value() : Value::makeInteger(known->second);
     const MetaAsset* asset = project_.find(texture, "a texture", problems_);
     if (!asset) return {};
-    SceneTexture out{.name = asset->path.filename().string(), .image = {}, .srgb = srgb, .sampler = samplerOf(*asset)};
+    SceneTexture out{.name = asset->path.filename().string(),
+                     .image = {},
+                     .srgb = srgb,
+                     .sampler = samplerOf(*asset, project_.metas())};
     try {
         out.image = readImage(asset->path);
         if (out.image.format != Format::RGBA8) out.image = toEightBit(out.image, PngMapping::Clamp);

@@ -33,7 +33,6 @@ public:
 
 private:
     Value useTexture(const AssetRef& texture, bool srgb);
-    SamplerDesc samplerOf(const MetaAsset& asset);
     void setEffect(SceneMaterial& out, const Mtl& mtl, const std::filesystem::path& effect);
     void setPlain(SceneMaterial& out, const Mtl& mtl);
 

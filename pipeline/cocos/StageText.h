@@ -50,6 +50,7 @@ struct StageText {
 
 struct NumberingOptions {
     bool rebindByName = true;  ///< A literal set 0 or 2 number that differs from the binding map's is replaced, noted.
+    bool subpassSamplers = false;  ///< Subpass inputs have no attachment number: they are read as samplers.
 };
 
 /// Writes `layout(…)` with location, set and binding into every interface declaration of a pass' stages (vertex before

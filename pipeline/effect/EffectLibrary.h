@@ -35,8 +35,10 @@ struct VariantRequest {
     std::size_t pass = 0;
     Defines defines;
     SourceLoc where;             ///< Who asked, for "no effect named" errors.
+    Defines constants{};         ///< Front ends: macros of the pipeline that an effect need not know.
     bool rebindLiterals = true;  ///< Front ends: names decide over numbers of sets 0 and 2 that the author wrote out.
     /// Nothing will be drawn with it: its SPIR-V is validated, and resources that Crevice does not bind are no error.
+    /// What a front end rewrites for drawing (subpass inputs) stays as it is.
     bool checkOnly = false;
 };
 

@@ -12,6 +12,8 @@ namespace crevice {
 std::string requestKey(const VariantRequest& request, const BindingMap& bindings, std::uint64_t generation) {
     std::string key = fmt::format("{}\n{} {} {}\n", request.effect, request.technique, request.pass, generation);
     if (!request.rebindLiterals) key += "literal numbers\n";
+    if (request.checkOnly) key += "check only\n";
+    for (const auto& [name, value] : request.constants) key += fmt::format("{}:={}\n", name, value);
     for (const auto& [name, value] : request.defines) key += fmt::format("{}={}\n", name, value);
     for (const auto& [name, slot] : bindings) key += fmt::format("{}:{}.{}\n", name, slot.set, slot.binding);
     return key;

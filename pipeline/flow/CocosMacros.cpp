@@ -48,7 +48,8 @@ const char* fogNumber(FogType type) {
 
 void addScene(const PipelineDesc& desc, const Scene& scene, Defines& macros) {
     macros["CC_USE_FOG"] = fogNumber(scene.fog.type);
-    if (scene.environment) {
+    macros["SKY_ENVIRONMENT"] = scene.environment && scene.environment->visible ? "1" : "0";
+    if (litByEnvironment(scene)) {
         macros["CC_USE_IBL"] = macros["CC_IBL_CONVOLUTED"] = "1";
         if (desc.profile == Profile::Cocos36) macros["CC_USE_DIFFUSEMAP"] = "1";
     }

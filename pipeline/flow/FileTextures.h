@@ -4,6 +4,7 @@
 #include <map>
 #include <string>
 
+#include "gfx/Sampler.h"
 #include "gfx/Texture.h"
 
 namespace crevice {
@@ -13,11 +14,21 @@ class Device;
 /// "material" of a stage under a Cocos profile may name a picture: what has an ending is no keyword.
 bool isPictureFile(const std::string& texture);
 
+/// A picture's name with how it is sampled behind a '#': "noise.png#nearest,clamp". Words: linear (as without any),
+/// nearest, nearest-min, nearest-mag; repeat (as without any), clamp, mirror, clamp-u, clamp-v, mirror-u, mirror-v.
+struct PictureName {
+    std::string file{};
+    SamplerKey sampler{};
+};
+/// A '#' in the name of a file that exists is its own. Throws Error for an unknown word.
+PictureName readPictureName(const std::string& texture);
+
 class FileTextures {
 public:
     explicit FileTextures(Device& device) : device_(device) {}
-    /// PNG, JPEG, WebP or EXR, texels as they are stored. Throws Error when the file cannot be read.
-    const GpuTexture& get(const std::string& path);
+    /// PNG, JPEG, WebP or EXR, texels as they are stored. `texture`: as readPictureName() takes it. Throws Error when
+    /// the file cannot be read.
+    const GpuTexture& get(const std::string& texture);
 
 private:
     Device& device_;

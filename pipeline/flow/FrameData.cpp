@@ -47,7 +47,7 @@ FrameView guardedView(const FrameView& view, std::uint32_t guard) {
 }
 
 Ambient ambientOf(const Scene& scene) {
-    if (!scene.environment) return scene.ambient.value_or(Ambient{});
+    if (!litByEnvironment(scene)) return scene.ambient.value_or(Ambient{});
     return {.sky = scene.environment->diffuse({0, 1, 0}), .ground = scene.environment->diffuse({0, -1, 0})};
 }
 

@@ -119,6 +119,7 @@ const EffectVariant& ProgramCompiler::compile(const StageProgram& stage, const s
         }
     }
     for (const auto& [name, value] : macros_) {
+        if (!known.contains(name)) request.constants.emplace(name, value);
         if (!known.contains(name) || isSwitchedOffByMaterial(name, offered)) continue;
         request.defines.insert_or_assign(name, value);
     }

@@ -30,7 +30,7 @@ Defines sceneDefines(const Scene* scene, ShadowMaps maps) {
                 {"CC_FOG", "1"}};
     const auto text = [](bool value) { return std::string(value ? "1" : "0"); };
     const Light* main = mainLight(*scene);
-    return {{"CC_USE_IBL", text(scene->environment.has_value())},
+    return {{"CC_USE_IBL", text(litByEnvironment(*scene))},
             {"SKY_ENVIRONMENT", text(scene->environment && scene->environment->visible)},
             {"CC_MAIN_SHADOW", text(maps.main && main && main->castsShadow)},
             {"CC_LIGHTS", lightsMacro(*scene, maps)},

@@ -78,9 +78,9 @@ void ShaderBinding::writeTextures(const BindingContext& context, const std::vect
             const bool file = !wire.cube && isPictureFile(wire.texture);
             const GpuTexture* texture =
                 file ? &context.files.get(wire.texture) : context.defaults.find(wire.texture, wire.cube);
+            const SamplerKey key = file ? readPictureName(wire.texture).sampler : samplerKey(SamplerKind::LinearRepeat);
             if (texture && !(wire.cube && wire.texture == "white"))  // Own effects: cubes stay black.
-                set_.writeTexture(wire.slot.binding, *texture,
-                                  context.samplers.get(samplerKey(SamplerKind::LinearRepeat)));
+                set_.writeTexture(wire.slot.binding, *texture, context.samplers.get(key));
             continue;
         }
         const GpuTexture& texture = targets.texture(wire.target);

@@ -28,7 +28,8 @@ struct Environment {
     ShCoefficients harmonics{};  ///< Of `radiance`: neither turned nor scaled.
     float intensity = 1;         ///< Factor of the radiance.
     float rotation = 0;          ///< Radians.
-    bool visible = true;         ///< SkyboxStage shows it; it lights in any case.
+    bool visible = true;         ///< SkyboxStage shows it.
+    bool lights = true;          ///< Surfaces receive it; without, it is only shown.
     float blur = 0;              ///< Of what is shown: the roughness of a mirror in which it is seen, 0 to 1.
     /// Made of `radiance`; null: the pipeline makes it when the scene is uploaded. See scene/EnvironmentCube.h.
     std::shared_ptr<const EnvironmentCube> cube{};

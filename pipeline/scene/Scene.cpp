@@ -54,19 +54,21 @@ glm::vec2 UvTransform::apply(const glm::vec2& uv) const {
     return {glm::dot(row(0), place), glm::dot(row(1), place)};
 }
 
+bool litByEnvironment(const Scene& scene) { return scene.environment && scene.environment->lights; }
+
 bool addDefaultLight(Scene& scene, bool environment) {
-    if (!scene.lights.empty() || scene.ambient || scene.environment) return false;
+    if (!scene.lights.empty() || scene.ambient || litByEnvironment(scene)) return false;
 
     // From the upper front left of world space; front is +z, where frameBounds() stands.
     Light key;
     key.name = "default key light";
     key.direction = glm::normalize(glm::vec3(0.5f, -0.8f, -0.45f));
-    // A white level floor leaves the key with radiance 0.45 (E cos / pi) and the ambient light with 0.3. The environment
-    // that takes the latter's place gives it 0.5, and less from other sides.
+    // A white level floor leaves the key with radiance 0.45 (E cos / pi) and the ambient light with 0.3. The
+    // environment that takes the latter's place gives it 0.5, and less from other sides.
     key.intensity = 0.45f * glm::pi<float>() / -key.direction.y;
     scene.lights.push_back(key);
     scene.ambient = Ambient{.sky = {0.34f, 0.35f, 0.37f}, .ground = {0.16f, 0.15f, 0.14f}};
-    if (environment) scene.environment = defaultEnvironment();
+    if (environment && !scene.environment) scene.environment = defaultEnvironment();
     return true;
 }
 

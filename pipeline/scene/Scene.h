@@ -189,6 +189,9 @@ struct Scene {
     Aabb bounds() const;  ///< World space, all instances.
 };
 
+/// Whether it has an environment that lights, and not only one that is shown.
+bool litByEnvironment(const Scene& scene);
+
 /// A key light, ambient and environment for a scene without any light: documented in docs/scenes.md. Returns true when
 /// it added them. `environment` false: only the first two.
 bool addDefaultLight(Scene& scene, bool environment = true);

@@ -97,6 +97,58 @@ TEST_F(FaultsTest, NoVulkanDriverIsSaidInWords) {
     expectUntouched();
 }
 
+/// `COMMAND …` with the article's project in our own words.
+std::string withArticle(const std::string& before, const std::string& after) {
+    const std::string article = CREVICE_TEST_SOURCE_DIR "/tests/cocos/article-v36/";
+    return before + " " + article + "project/assets/pipeline/ssao-deferred-pipeline.rpp --engine " + article +
+           "engine " + after;
+}
+
+TEST_F(FaultsTest, ImportWritesAWholeDocumentOrNone) {
+    write("a.pipeline.json", "an earlier document");
+    const auto expectEarlier = [&] {
+        EXPECT_EQ(files(), (Names{"a.pipeline.json", "a.png"}));
+        EXPECT_EQ(readText(path("a.pipeline.json")), "an earlier document");
+    };
+    Outcome outcome;
+    {
+        const ScopedFileSize limit(1000);  // the document is larger; each of its messages is not
+        outcome = run(withArticle("import", "-o a.pipeline.json -q"));
+    }
+    EXPECT_EQ(outcome.code, 1);
+    expectHas(outcome.err, "error: cannot write 'a.pipeline.json': File too large");
+    expectEarlier();
+    outcome = run(withArticle("import", "-o /dev/full -q"));
+    EXPECT_EQ(outcome.code, 1);
+    expectHas(outcome.err, "error: cannot write '/dev/full': No space left on device");
+    EXPECT_TRUE(std::filesystem::is_character_file("/dev/full"));
+    outcome = run(withArticle("import", "-o /proc/a.pipeline.json -q"));
+    EXPECT_NE(outcome.code, 0);
+    expectHas(outcome.err, "/proc");
+    expectHas(outcome.err, "help: ");
+    expectEarlier();
+}
+
+TEST_F(FaultsTest, ACocosPipelineWritesAWholePictureOrNone) {
+    const std::string small = "-o a.png --size 160x90 -q";
+    Outcome outcome;
+    {
+        const ScopedFileSize limit(1500);
+        outcome = run(withArticle("render crease -p", small));  // what the caches cannot keep is no error
+    }
+    EXPECT_EQ(outcome.code, 1);
+    expectHas(outcome.err, "error: cannot write 'a.png': File too large");
+    expectUntouched();
+    outcome = run(withArticle("render crease -p", "-o a.png --size 16x16 -q --dump cc_ssaoMap=/proc/ao.png"));
+    EXPECT_NE(outcome.code, 0);
+    expectHas(outcome.err, "/proc");
+    expectUntouched();
+    outcome = run(withArticle("render crease -p", "-o a.png --size 16x16 -q --timings /dev/full"));
+    EXPECT_EQ(outcome.code, 1);
+    expectHas(outcome.err, "error: cannot write '/dev/full': No space left on device");
+    expectUntouched();
+}
+
 // Whatever instant the end comes at, the name holds the old picture or the whole new one.
 TEST_F(FaultsTest, AKilledRunLeavesTheOldPictureOrAWholeOne) {
     for (const int delayMs : {0, 2, 5}) {

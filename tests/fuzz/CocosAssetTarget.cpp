@@ -5,6 +5,7 @@
 #include "cocos/MtlInstance.h"
 #include "cocos/SceneImport.h"
 #include "core/Files.h"
+#include "core/Image.h"
 #include "effect/EffectAsset.h"
 
 namespace crevice::fuzz {
@@ -32,11 +33,17 @@ constexpr std::string_view kEffect = R"(CCEffect %{
 )";
 constexpr std::string_view kMaterial =
     R"({ "__type__": "cc.Material", "_effectAsset": { "__uuid__": "1baf0fc9-befa-459c-8bdd-af1a450a0319" },
-  "_props": [ { "metallic": 0.25, "mainTexture": { "__uuid__": "20ff50d1-0000-4000-8000-000000f1736b@6c48a" } } ] })";
+  "_props": [ { "metallic": 0.25, "mainTexture": { "__uuid__": "30ff50d1-0000-4000-8000-000000f1736b@6c48a" } } ] })";
 constexpr std::string_view kModel =
-    R"({ "asset": { "version": "2.0" }, "scenes": [ { "nodes": [ 0 ] } ], "nodes": [ { "mesh": 0 } ],
-  "meshes": [ { "primitives": [ { "attributes": { "POSITION": 0 }, "material": 0 } ] } ], "materials": [ {} ],
-  "accessors": [ { "componentType": 5126, "count": 3, "type": "VEC3" } ] })";
+    R"({ "asset": { "version": "2.0" }, "scene": 0, "scenes": [ { "nodes": [ 0, 1 ] } ],
+  "nodes": [ { "mesh": 0 }, { "mesh": 1, "scale": [ -1, 1, 1 ] } ],
+  "meshes": [ { "primitives": [ { "attributes": { "POSITION": 0 }, "material": 0 } ] },
+              { "primitives": [ { "attributes": { "POSITION": 0 } } ] } ],
+  "materials": [ { "normalTexture": { "index": 0 } } ], "textures": [ { "source": 0 } ],
+  "images": [ { "uri": "t.png" } ],
+  "accessors": [ { "bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3", "min": [ 0, 0, 0 ], "max": [ 1, 1, 0 ] } ],
+  "bufferViews": [ { "buffer": 0, "byteLength": 36 } ], "buffers": [ { "byteLength": 36,
+    "uri": "data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA" } ] })";
 
 struct AssetFolder {
     ScratchFolder folder;
@@ -53,7 +60,20 @@ struct AssetFolder {
         write("assets/m.gltf.meta",
               R"({ "importer": "gltf", "uuid": "20ff50d1-0000-4000-8000-000000f1736b", "subMetas": {
   "a": { "importer": "gltf-mesh", "uuid": "20ff50d1-0000-4000-8000-000000f1736b@a", "userData": { "gltfIndex": 0 } },
-  "b": { "importer": "gltf-material", "uuid": "20ff50d1-0000-4000-8000-000000f1736b@b", "userData": { "gltfIndex": 0 } } } })");
+  "b": { "importer": "gltf-material", "uuid": "20ff50d1-0000-4000-8000-000000f1736b@b", "userData": { "gltfIndex": 0 } },
+  "c": { "importer": "gltf-scene", "uuid": "20ff50d1-0000-4000-8000-000000f1736b@c", "userData": { "gltfIndex": 0 } },
+  "d": { "importer": "gltf-mesh", "uuid": "20ff50d1-0000-4000-8000-000000f1736b@d", "userData": { "gltfIndex": 7 } } } })");
+        writeImage(folder.path() / "assets/t.png", Image(4, 2, Format::RGBA8));
+        write("assets/t.png.meta",
+              R"({ "importer": "image", "uuid": "30ff50d1-0000-4000-8000-000000f1736b", "subMetas": {
+  "6c48a": { "importer": "texture", "uuid": "30ff50d1-0000-4000-8000-000000f1736b@6c48a", "userData": {
+    "wrapModeS": "clamp-to-edge", "wrapModeT": "mirrored-repeat", "minfilter": "nearest", "mipfilter": "linear" } },
+  "b47c0": { "importer": "erp-texture-cube", "uuid": "30ff50d1-0000-4000-8000-000000f1736b@b47c0",
+    "userData": { "isRGBE": true } } } })");
+        write("assets/p.prefab", R"([ { "__type__": "cc.Prefab", "data": { "__id__": 1 } },
+  { "__type__": "cc.Node", "_components": [ { "__type__": "cc.MeshRenderer",
+    "_mesh": { "__uuid__": "20ff50d1-0000-4000-8000-000000f1736b@a" } } ] } ])");
+        write("assets/p.prefab.meta", R"({ "importer": "prefab", "uuid": "40ff50d1-0000-4000-8000-000000f1736b" })");
     }
     fs::path write(const std::string& name, std::string_view text) const {
         fs::create_directories((folder.path() / name).parent_path());

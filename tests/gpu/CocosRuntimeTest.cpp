@@ -37,6 +37,33 @@ TEST_F(CocosRuntime, SamplersThatNothingFeedsShowTheChecker) {
     }
 }
 
+TEST_F(CocosRuntime, PicturesOfStagesAreSampledAsTheirNamesSay) {
+    Image picture(2, 1, Format::RGBA8);
+    for (std::size_t i = 0; i < 8; ++i) picture.pixels[i] = std::byte(i < 4 ? 0 : 255);
+    writeImage(folder_ / "two.png", picture);
+    writeCocos("two",
+               "CCEffect %{\n  techniques:\n  - passes:\n    - vert: quad-vs:vert\n      frag: test-fs:frag\n"
+               "      properties: { two: { value: white } }\n"
+               "      depthStencilState: { depthTest: false, depthWrite: false }\n}%\n" +
+                   std::string(kQuadVertex) +
+                   "CCProgram test-fs %{\n  precision highp float;\n  in vec2 v_uv;\n  uniform sampler2D two;\n"
+                   "  vec4 frag () { return vec4(textureLod(two, vec2(0.0, 0.5), 0.0).r, textureLod(two, vec2(0.5, "
+                   "0.5), 0.0).r, v_uv.x * 0.0, 1.0); }\n}%\n");
+    const auto texelWith = [&](const std::string& words) {
+        loadCocos(R"({"stage": "FullscreenStage", "effect": "two", "writes": ["finalColor"], "material": {"two": ")" +
+                  (folder_ / "two.png").string() + words + "\"}}");
+        renderer_->setScene(darkScene());
+        return renderer_->render(sized(4, 4)).at(1, 1);
+    };
+    // At the left edge both texels meet when the picture repeats; in its middle they meet unless the nearest one
+    // counts.
+    EXPECT_NEAR(texelWith("").x, 0.5f, 0.01f);
+    EXPECT_NEAR(texelWith("").y, 0.5f, 0.01f);
+    EXPECT_EQ(texelWith("#clamp").x, 0.0f);
+    EXPECT_NEAR(texelWith("#clamp").y, 0.5f, 0.01f);
+    EXPECT_EQ(texelWith("#nearest,clamp").y, 1.0f);
+}
+
 TEST_F(CocosRuntime, AttributesThatMeshesLackAreZero) {
     writeSurface("plain", "    - { vert: 'vs:vert', frag: 'fs:frag' }\n",
                  "  in vec4 a_color1;\n  in vec4 a_lightingMapUVParam;\n  in float a_dyn_batch_id;\n",

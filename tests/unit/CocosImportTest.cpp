@@ -47,6 +47,45 @@ TEST(CocosImport, StatesAndPicturesOfAStagesMaterialAreTaken) {
     EXPECT_EQ(ssao.material.find("noise")->string(), (project.folder.path() / "assets/noise.png").string());
 }
 
+TEST(CocosImport, PicturesOfAStagesMaterialAreSampledAsTheirMetasSay) {
+    ProjectFolder project;
+    project.writeMaterial(R"([ { "noise": { "__uuid__": "00000000-0000-4000-8000-000000000002@6c48a" } } ])");
+    project.write("assets/noise.png", "");
+    const auto noiseWith = [&](const std::string& words) {
+        project.write("assets/noise.png.meta",
+                      R"({"importer":"image","uuid":"00000000-0000-4000-8000-000000000002",
+            "subMetas":{"6c48a":{"importer":"texture","uuid":"00000000-0000-4000-8000-000000000002@6c48a",
+            "userData":{)" +
+                          words + "}}}}");
+        const StageDesc ssao = stage(load(project.import(mainFlow(kSsao)).text), "SsaoStage");
+        const std::string name = ssao.material.find("noise")->string();
+        return name.substr(name.rfind('/') + 1);
+    };
+    EXPECT_EQ(noiseWith(R"("wrapModeS":"repeat","wrapModeT":"repeat","minfilter":"linear","magfilter":"linear")"),
+              "noise.png");
+    EXPECT_EQ(
+        noiseWith(
+            R"("wrapModeS":"clamp-to-edge","wrapModeT":"clamp-to-edge","minfilter":"nearest","magfilter":"nearest")"),
+        "noise.png#nearest,clamp");
+    EXPECT_EQ(noiseWith(R"("wrapModeS":"mirrored-repeat","magfilter":"nearest")"), "noise.png#nearest-mag,mirror-u");
+    EXPECT_EQ(noiseWith(R"("wrapModeS":"clamp-to-edge","wrapModeT":"mirrored-repeat","minfilter":"nearest")"),
+              "noise.png#nearest-min,clamp-u,mirror-v");
+}
+
+TEST(CocosImport, TheSkyIsAStageBeforeWhatFollowsIt) {
+    ProjectFolder project;
+    project.classes.push_back({"SkyboxStage", {}, {}});
+    project.classes.push_back({"ForwardStage", {}, {}});
+    const PipelineDesc deferred = load(project.import(mainFlow(kSsao)).text);
+    EXPECT_EQ(stagesOf(deferred),
+              "ShadowFlow: ShadowStage; MainFlow: GbufferStage SsaoStage SkyboxStage LightingStage PostProcessStage; ");
+    EXPECT_TRUE(stage(deferred, "SkyboxStage").writes.empty());
+    const PipelineDesc forward = load(project.import(R"({ "__type__": "ForwardPipeline", "_flows": [] })").text);
+    EXPECT_EQ(stagesOf(forward),
+              "ShadowFlow: SpotShadowStage ShadowStage; ForwardFlow: ForwardStage SkyboxStage TransparentStage; ");
+    EXPECT_EQ(stage(forward, "SkyboxStage").writes, std::vector<std::string>{"finalColor"});
+}
+
 TEST(CocosImport, AUsersStageTakesItsMaterial) {
     ProjectFolder project;
     const PipelineDesc desc = load(project.import(mainFlow(kSsao)).text);

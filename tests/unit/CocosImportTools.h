@@ -28,6 +28,7 @@ inline const std::vector<StageFacts> kClasses = {
 struct ProjectFolder {
     test::TempFolder folder;
     std::string notes;
+    std::vector<StageFacts> classes = kClasses;
 
     ProjectFolder() {
         write("package.json", "{}");
@@ -66,7 +67,7 @@ struct ProjectFolder {
         };
         Project project({.chunks = {}, .project = folder.path(), .engine = engine}, effects, problems);
         ImportedPipeline imported =
-            importPipeline({.rpp = folder.path() / "assets/pipeline/mine.rpp", .classes = kClasses, .version = version},
+            importPipeline({.rpp = folder.path() / "assets/pipeline/mine.rpp", .classes = classes, .version = version},
                            project, problems);
         problems.throwIfErrors();
         for (const Problem& problem : problems.all()) notes += formatProblem(problem) + "\n";

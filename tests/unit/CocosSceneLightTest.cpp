@@ -104,7 +104,27 @@ TEST(CocosScene, ASkyThatCannotBeReadIsLeftOut) {
                          "_envmapHDR": { "__uuid__": "30ff50d1-0000-4000-8000-000000f1736b" } } })"));
     EXPECT_FALSE(loaded.scene.environment);
     EXPECT_EQ(loaded.scene.fog.type, FogType::None);  // 4 is no fog
-    EXPECT_TRUE(contains(folder.notes, "the skybox is left out: ")) << folder.notes;
+    EXPECT_TRUE(contains(folder.notes, "the sky is left out: ")) << folder.notes;
+}
+
+TEST(CocosScene, ShadowMapsHaveTheScenesSize) {
+    SceneFolder folder;
+    const auto sizeWith = [&](const std::string& shadows) {
+        return folder
+            .load(withComponent(R"({ "__type__": "cc.DirectionalLight", "_csmLevel": 4 })", "",
+                                R"({ "shadows": { "__type__": "cc.ShadowsInfo", )" + shadows + "} }"))
+            .shadowMap;
+    };
+    const std::string size = R"("_size": { "__type__": "cc.Vec2", "x": 512, "y": 256 })";
+    EXPECT_EQ(sizeWith(R"("_enabled": true, "_type": 1, )" + size), glm::uvec2(512, 256));
+    EXPECT_TRUE(contains(folder.notes, "left out: cascades of shadow maps")) << folder.notes;
+    folder.notes.clear();
+    EXPECT_FALSE(sizeWith(R"("_enabled": false, "_type": 1, )" + size));
+    EXPECT_FALSE(sizeWith(R"("_enabled": true, "_type": 0, )" + size));  // planar
+    EXPECT_FALSE(contains(folder.notes, "cascades")) << folder.notes;
+    EXPECT_FALSE(sizeWith(R"("_enabled": true, "_type": 1)"));
+    EXPECT_FALSE(sizeWith(R"("_enabled": true, "_type": 1, "_size": { "__type__": "cc.Vec2", "x": 1e9, "y": 0 })"));
+    EXPECT_FALSE(sizeWith(R"("_enabled": true, "_type": 1, "_size": 2)"));
 }
 
 TEST(CocosScene, SkinnedMeshesStandWhereTheirRootIs) {

@@ -97,7 +97,7 @@ TEST(CocosScene, AmbientAndFogAreRead) {
     EXPECT_FLOAT_EQ(out.scene.fog.density, 0.4f);  // 0.5 x 4 / 5: what distances are divided by is 5 by default
     EXPECT_NEAR(out.scene.fog.color.r * exposureOf(*out.scene.exposureEv), 1, 1e-5);
     EXPECT_EQ(out.scene.fog.color.g, 0);
-    EXPECT_TRUE(contains(folder.notes, "left out: the skybox")) << folder.notes;
+    EXPECT_TRUE(contains(folder.notes, "the sky is left out: it has no picture")) << folder.notes;
     EXPECT_FALSE(contains(folder.notes, "UITransform"));
 }
 

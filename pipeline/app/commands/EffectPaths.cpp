@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
+#include "cocos/Project.h"
 #include "core/Error.h"
 #include "core/Files.h"
 
@@ -84,7 +85,8 @@ std::vector<std::string> expandEffects(const std::vector<std::string>& words, co
 bool readsCocos(const CocosOptions& options, const std::vector<std::string>& effects, const AssetRoots& own) {
     if (options.given()) return true;
     return std::any_of(effects.begin(), effects.end(), [&](const std::string& effect) {
-        return effect.ends_with(".effect") && !own.contains(effect) && !engineOf(effect).empty();
+        return effect.ends_with(".effect") && !own.contains(effect) &&
+               (!engineOf(effect).empty() || cocos::findProjectFolder(effect));
     });
 }
 
@@ -95,7 +97,10 @@ cocos::Roots cocosRoots(const CocosOptions& options, const std::vector<std::stri
     roots.project = existingFolder("--project", options.project);
     for (const std::string& effect : effects) {
         if (!effect.ends_with(".effect")) continue;
-        if (roots.engine.empty()) roots.engine = engineOf(effect);
+        const fs::path engine = engineOf(effect);
+        if (roots.engine.empty()) roots.engine = engine;
+        if (roots.project.empty() && engine.empty())
+            roots.project = cocos::findProjectFolder(effect).value_or(fs::path());
         std::vector<fs::path> known = roots.assetFolders();
         known.insert(known.end(), roots.chunks.begin(), roots.chunks.end());
         const bool inside =

@@ -1,9 +1,25 @@
 // The project decides how materials are written, the file's ending who reads it.
 #include "app/commands/OpenScene.h"
 
+#include <fmt/format.h>
+
 #include "cocos/SceneImport.h"
 
 namespace crevice {
+namespace {
+
+/// A document has sizes of its own; a .rpp leaves them to the scene.
+std::vector<StageSet> setsOf(const PipelineChoice& pipeline, const std::optional<glm::uvec2>& shadowMap) {
+    std::vector<StageSet> sets;
+    if (!shadowMap || !pipeline.request().text) return sets;
+    for (const char* target :
+         {"cc_shadowMap", "shadowDepth", "cc_spotShadowMap", "cc_spotLightingMap", "spotShadowDepth"})
+        if (pipeline.desc().findTarget(target))
+            sets.push_back({fmt::format("{}.size", target), fmt::format("[{}, {}]", shadowMap->x, shadowMap->y)});
+    return sets;
+}
+
+}  // namespace
 
 OpenedScene openScene(const SceneFile& file, const PipelineChoice& pipeline, const Log& log,
                       const SceneOptions& options) {
@@ -14,7 +30,7 @@ OpenedScene openScene(const SceneFile& file, const PipelineChoice& pipeline, con
         const LoadOptions load = makeLoadOptions(pipeline.roots(), log, options);
         const auto form = profile ? cocos::MaterialForm::Effects : cocos::MaterialForm::Plain;
         auto imported = cocos::importScene(file.path, pipeline.cocos()->assets(log), form, load, problems);
-        opened = {std::move(imported.scene), imported.background};
+        opened = {std::move(imported.scene), imported.background, setsOf(pipeline, imported.shadowMap)};
     } else {
         opened.scene = loadSceneFile(file, pipeline.roots(), log, options);
         if (profile && pipeline.cocos())

@@ -11,6 +11,7 @@ namespace crevice {
 struct OpenedScene {
     Scene scene{};
     std::optional<glm::vec4> background{};  ///< Clear colour of a Cocos scene's camera.
+    std::vector<StageSet> sets{};           ///< What a Cocos scene says of a .rpp: the size of its shadow maps.
 };
 
 /// Reads any scene file, .scene of Cocos Creator too. Materials become effects of the project where the pipeline has a

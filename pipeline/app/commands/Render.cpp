@@ -64,8 +64,9 @@ private:
     Timings timings_;
     Stopwatch watch_;
     OutputFiles files_;
-    Scene scene_;                   ///< The next one to render.
-    std::optional<Camera> camera_;  ///< Chosen for it.
+    Scene scene_;                      ///< The next one to render.
+    std::optional<Camera> camera_;     ///< Chosen for it.
+    std::vector<StageSet> sceneSets_;  ///< Of the first one.
     std::unique_ptr<Renderer> renderer_;
 };
 
@@ -75,6 +76,7 @@ void RenderRun::loadScene(std::size_t index) {
     watch_.lap();
     OpenedScene opened = openScene(item.scene, pipeline_, makeLog(options_.console, progress_), options_.loading);
     scene_ = std::move(opened.scene);
+    if (index == 0) sceneSets_ = std::move(opened.sets);
     if (opened.background && options_.view.background.empty()) job_.view.background = *opened.background;
     Limits limits;
     for (const std::string& limit : options_.loading.limits) setLimit(limits, limit);
@@ -99,7 +101,9 @@ void RenderRun::start() {
     for (const std::filesystem::path& plugin : pipeline_.classes().pluginFiles()) renderer_->loadPlugin(plugin);
     progress_.show(fmt::format("compiling {} …", pipeline_.desc().name));
     const auto frames = static_cast<std::uint32_t>(std::min<std::size_t>(job_.frames * job_.items.size(), 1u << 30));
-    renderer_->load(pipeline_.request(), {.width = job_.view.size.x, .height = job_.view.size.y, .frames = frames});
+    PipelineRequest request = pipeline_.request();
+    request.sets.insert(request.sets.begin(), sceneSets_.begin(), sceneSets_.end());  // those of the command line win
+    renderer_->load(request, {.width = job_.view.size.x, .height = job_.view.size.y, .frames = frames});
     timings_.compileMs = watch_.lap();
 }
 

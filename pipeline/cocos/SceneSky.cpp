@@ -1,0 +1,58 @@
+// Pictures of skies are decoded as the engine's sky effect does.
+#include "cocos/SceneSky.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include "core/Image.h"
+#include "core/Text.h"
+
+namespace crevice::cocos {
+namespace {
+
+std::string endingOf(const std::filesystem::path& path) {
+    std::string ending = path.extension().string();
+    std::transform(ending.begin(), ending.end(), ending.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return ending;
+}
+
+bool isRadiance(const std::string& ending) { return ending == ".hdr" || ending == ".exr"; }
+
+bool isPackedRgbe(const MetaAsset& asset) {
+    const Value* flag = asset.userData.isObject() ? asset.userData.find("isRGBE") : nullptr;
+    return flag && flag->isBool() && flag->boolean();
+}
+
+Image decoded(const Image& stored, bool rgbe) {
+    constexpr float kExponentBias = 128;
+    Image out(stored.width, stored.height, Format::RGBA32F);
+    for (std::uint32_t y = 0; y < stored.height; ++y) {
+        for (std::uint32_t x = 0; x < stored.width; ++x) {
+            const glm::vec4 texel = stored.at(x, y);
+            const glm::vec3 color(texel);
+            const glm::vec3 radiance =
+                rgbe ? color * std::exp2(std::round(texel.w * 255.0f) - kExponentBias) : color * color;
+            const float values[4] = {radiance.x, radiance.y, radiance.z, 1};
+            std::memcpy(out.pixels.data() + (std::size_t(y) * stored.width + x) * sizeof values, values, sizeof values);
+        }
+    }
+    return out;
+}
+
+}  // namespace
+
+bool isPanorama(const std::filesystem::path& path) {
+    static constexpr std::string_view kEndings[] = {".hdr", ".exr", ".png", ".jpg", ".jpeg", ".webp"};
+    return std::find(std::begin(kEndings), std::end(kEndings), endingOf(path)) != std::end(kEndings);
+}
+
+Environment readSky(const MetaAsset& asset, const Log& log, const Limits& limits) {
+    if (isRadiance(endingOf(asset.path))) return loadEnvironment(asset.path, log, limits);
+    const Image stored = readImage(asset.path);
+    checkPanoramaShape(stored.width, stored.height, asset.path.filename().string());
+    return makeEnvironment(decoded(stored, isPackedRgbe(asset)), asset.path.filename().string(), log);
+}
+
+}  // namespace crevice::cocos

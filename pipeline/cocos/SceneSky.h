@@ -1,0 +1,21 @@
+// Internal to the scene importer: the picture of a sky as our environment.
+#pragma once
+
+#include <filesystem>
+
+#include "cocos/Project.h"
+#include "core/Limits.h"
+#include "core/Log.h"
+#include "scene/Environment.h"
+
+namespace crevice::cocos {
+
+/// Whether its ending is one of those that readSky() knows.
+bool isPanorama(const std::filesystem::path& path);
+
+/// A panorama, twice as wide as high: .hdr and .exr hold radiance; the eight bits of .png, .jpg and .webp are squared,
+/// as the engine does; where the meta says `isRGBE`, they are a mantissa each, and alpha is their exponent plus 128.
+/// Throws Error.
+Environment readSky(const MetaAsset& asset, const Log& log, const Limits& limits);
+
+}  // namespace crevice::cocos
