@@ -56,6 +56,7 @@ ChunkLibrary::Found ChunkLibrary::find(const EffectAsset& effect, const std::str
         std::vector<std::string> folders;
         for (const fs::path& path : roots_.chunkFolders()) folders.push_back(path.string());
         found.help += folders.empty() ? "none; give --project, --engine or --chunks" : join(folders);
+        if (!folders.empty() && roots_.engine.empty()) found.help += "; the engine's own come with --engine DIR";
     }
     return known[name] = found;
 }

@@ -31,9 +31,17 @@ constexpr std::string_view kSubpassHead =
     "#define subpassInput sampler2D\n#define isubpassInput isampler2D\n#define usubpassInput usampler2D\n"
     "#define subpassLoad(subpassImage) texelFetch(subpassImage, ivec2(gl_FragCoord.xy), 0)\n";
 
-bool readsSubpassInputs(const StageInterface& stage) {
-    const auto isInput = [](const auto& declaration) { return declaration.kind == InterfaceKind::SubpassInput; };
-    return std::any_of(stage.declarations.begin(), stage.declarations.end(), isInput);
+/// Subpass inputs, and none of several samples: those stay as they are, and nothing can be drawn with them.
+bool canSampleSubpassInputs(const std::vector<StageInterface>& stages) {
+    bool any = false;
+    for (const StageInterface& stage : stages) {
+        for (const InterfaceDeclaration& declaration : stage.declarations) {
+            if (declaration.kind != InterfaceKind::SubpassInput) continue;
+            if (declaration.type.ends_with("MS")) return false;
+            any = true;
+        }
+    }
+    return any;
 }
 
 /// main() of a stage with an entry is its last line.
@@ -189,7 +197,7 @@ std::vector<StageSource> CocosEffects::stages(const EffectAsset& effect, const E
     addUniformVectors(texts, interfaces, values);
     NumberingOptions numbering = state_->options.numbering;
     numbering.rebindByName = numbering.rebindByName && request.rebindLiterals;
-    numbering.subpassSamplers = !request.checkOnly;
+    numbering.subpassSamplers = !request.checkOnly && canSampleSubpassInputs(interfaces);
     numberStages(texts, interfaces, bindings, numbering, problems);
     std::vector<StageSource> sources;
     for (StageText& text : texts) {
@@ -197,8 +205,7 @@ std::vector<StageSource> CocosEffects::stages(const EffectAsset& effect, const E
         source.stage = text.stage;
         source.numbered = true;
         source.head = makeHead(text, macros, values);
-        if (numbering.subpassSamplers && readsSubpassInputs(interfaces[sources.size() - 1]))
-            source.head += kSubpassHead;
+        if (numbering.subpassSamplers && text.stage == kFragmentBit) source.head += kSubpassHead;
         source.flat = std::move(text.flat);
         source.text = source.flat.text;
     }

@@ -106,7 +106,7 @@ TEST(CocosSceneSky, EachHalfHasItsOwnPictureAndStrength) {
 
 TEST(CocosSceneSky, WhatIsLeftOutIsSaid) {
     SkyFolder folder;
-    EXPECT_FALSE(folder.sky(14, SkyFolder::picture("_envmap", kModel)).scene.environment);
+    EXPECT_FALSE(folder.sky(14, R"("_envmap": { "__uuid__": ")" + std::string(kModel) + "\" }").scene.environment);
     EXPECT_TRUE(contains(folder.notes, "the sky is left out: 'm.gltf' is no panorama")) << folder.notes;
     folder.notes.clear();
     folder.sky(14, SkyFolder::picture("_envmap", "70ff50d1-0000-4000-8000-000000f1736b"));

@@ -29,7 +29,7 @@ SceneFile findScene(const AssetRoots& roots, const std::string& argument) {
     std::error_code failed;
     if (std::filesystem::exists(path, failed)) {
         throw Error(fmt::format("'{}' is not a scene that can be read", argument),
-                    "scenes end in .gltf, .glb or .scene.json");
+                    "scenes end in .gltf, .glb, .scene.json or .scene");
     }
     throw Error(fmt::format("no scene named '{}'", argument),
                 didYouMean(argument, roots.list(AssetKind::Scene), "shipped scenes") +
