@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "cocos/Interface.h"
+#include "core/Text.h"
 
 namespace crevice::cocos {
 namespace {
@@ -19,13 +20,6 @@ std::string layoutText(const LayoutNumbers& numbers, const std::string& kept) {
     add("location", numbers.location);
     if (!kept.empty()) text += (text.empty() ? "" : ", ") + kept;
     return text.empty() ? "" : "layout(" + text + ") ";
-}
-
-std::string imageFormat(const std::string& mark) {
-    std::string format = mark;
-    std::transform(format.begin(), format.end(), format.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return format;
 }
 
 class LayoutWriter {
@@ -57,7 +51,7 @@ private:
         for (const TextEdit& layout : where.layouts)
             if (!layout.text.empty()) all += (all.empty() ? "" : ", ") + layout.text;
         if (declaration.kind == InterfaceKind::Image && !declaration.formatMark.empty() && all.empty())
-            all = imageFormat(declaration.formatMark);
+            all = lowerCase(declaration.formatMark);
         return all;
     }
 

@@ -2,7 +2,6 @@
 #include "cocos/ObjectGraph.h"
 
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include <fmt/format.h>
@@ -112,7 +111,7 @@ const Value* FieldReader::typed(std::string_view key, bool (Value::*is)() const,
 double FieldReader::number(std::string_view key, double otherwise) const {
     const Value* value = typed(key, &Value::isNumber, "a number");
     if (!value) return otherwise;
-    if (std::abs(value->number()) <= double(std::numeric_limits<float>::max())) return value->number();
+    if (fitsFloat(value->number())) return value->number();
     problems_.error(value->where(), fmt::format("'{}' is {}, more than a float holds", key, value->toJson(-1)),
                     "write a number that can be computed with");
     return otherwise;

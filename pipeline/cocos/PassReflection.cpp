@@ -6,6 +6,7 @@
 
 #include "cocos/Reflection.h"
 #include "core/StateNames.h"
+#include "core/Text.h"
 
 namespace crevice::cocos {
 namespace {
@@ -14,16 +15,10 @@ using Names = std::span<const char* const>;
 
 constexpr std::array kShadeNames = {"gourand", "flat"};
 
-std::string lower(std::string text) {
-    std::transform(text.begin(), text.end(), text.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return text;
-}
-
 /// A word of the list as its place in it; everything else stays.
 Value numbered(const Value& value, Names names) {
     if (!value.isString()) return value;
-    const std::string word = lower(value.string());
+    const std::string word = lowerCase(value.string());
     for (std::size_t i = 0; i < names.size(); ++i)
         if (word == names[i]) return Value::makeInteger(static_cast<std::int64_t>(i));
     return value;
@@ -32,7 +27,7 @@ Value numbered(const Value& value, Names names) {
 Value colorMask(const Value& value) {
     static const std::map<std::string, int> kBits = {{"none", 0}, {"r", 1}, {"g", 2}, {"b", 4}, {"a", 8}, {"all", 15}};
     if (!value.isString()) return value;
-    const auto it = kBits.find(lower(value.string()));
+    const auto it = kBits.find(lowerCase(value.string()));
     return it == kBits.end() ? value : Value::makeInteger(it->second);
 }
 
@@ -44,7 +39,7 @@ Value dynamicStates(const Value& value) {
     std::int64_t bits = 0;
     for (const Value& item : value.items())
         if (item.isString())
-            if (const auto it = kBits.find(lower(item.string())); it != kBits.end()) bits |= it->second;
+            if (const auto it = kBits.find(lowerCase(item.string())); it != kBits.end()) bits |= it->second;
     return Value::makeInteger(bits);
 }
 
@@ -113,7 +108,7 @@ Value blendState(const Value& written) {
 
 Value stageQueue(const Value& value) {
     if (!value.isString()) return value;
-    const std::string word = lower(value.string());
+    const std::string word = lowerCase(value.string());
     return word == "default" ? Value::makeInteger(100) : word == "ui" ? Value::makeInteger(200) : value;
 }
 

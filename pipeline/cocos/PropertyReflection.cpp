@@ -3,6 +3,7 @@
 
 #include "cocos/Reflection.h"
 #include "core/StateNames.h"
+#include "core/Text.h"
 
 namespace crevice::cocos {
 namespace {
@@ -56,9 +57,7 @@ int packed(const Value& sampler, const char* key, const std::vector<const char*>
     if (value == nullptr) return usual;
     if (value->isNumber()) return static_cast<int>(value->number());
     if (!value->isString()) return usual;
-    std::string word = value->string();
-    std::transform(word.begin(), word.end(), word.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    const std::string word = lowerCase(value->string());
     for (std::size_t i = 0; i < names.size(); ++i)
         if (word == names[i]) return static_cast<int>(i);
     return usual;

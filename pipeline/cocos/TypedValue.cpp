@@ -2,7 +2,6 @@
 #include "cocos/TypedValue.h"
 
 #include <cmath>
-#include <limits>
 
 #include <fmt/format.h>
 
@@ -36,8 +35,6 @@ const std::vector<NumberType>& numberTypes() {
     };
     return kTypes;
 }
-
-bool fitsFloat(double number) { return std::abs(number) <= double(std::numeric_limits<float>::max()); }
 
 Value readNumbers(const Value& object, const NumberType& type, Problems& problems) {
     Value list = Value::makeArray(object.where());

@@ -12,6 +12,9 @@ namespace crevice {
 
 struct Member;
 
+/// Whether a float holds `number` as something that is finite; false for NaN.
+bool fitsFloat(double number);
+
 /// A node of a document. Objects keep the order of their keys. Nothing is converted between string, number and bool.
 class Value {
 public:

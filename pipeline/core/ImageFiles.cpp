@@ -6,19 +6,9 @@
 #include "core/Hdr.h"
 #include "core/Image.h"
 #include "core/Picture.h"
+#include "core/Text.h"
 
 namespace crevice {
-namespace {
-
-std::string lowerCaseEnding(const std::filesystem::path& path) {
-    std::string ending = path.extension().string();
-    for (char& c : ending) {
-        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-    }
-    return ending;
-}
-
-}  // namespace
 
 Image readImage(const std::filesystem::path& path) { return readImage(path, Limits{}); }
 
@@ -32,7 +22,7 @@ Image readImage(const std::filesystem::path& path, const Limits& limits) {
 }
 
 void writeImage(const std::filesystem::path& path, const Image& image, PngMapping mapping, float far) {
-    const std::string ending = lowerCaseEnding(path);
+    const std::string ending = lowerCase(path.extension().string());
     if (ending == ".png") {
         writeFileAtomically(path, encodePng(toEightBit(image, mapping, far)));
     } else if (ending == ".exr") {

@@ -10,14 +10,6 @@ namespace {
 constexpr std::size_t kMaxNameLength = 100;  // longer names are not misspelt words
 constexpr std::size_t kMaxListedNames = 60;
 
-std::string lowerCase(std::string_view text) {
-    std::string lower(text);
-    for (char& c : lower) {
-        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-    }
-    return lower;
-}
-
 /// Insertions, deletions, replacements and swaps of neighbours that turn one word into the other
 /// (optimal string alignment; Wagner and Fischer 1974 with the transposition of Damerau 1964).
 std::size_t editDistance(const std::string& a, const std::string& b) {
@@ -78,6 +70,14 @@ std::string didYouMean(std::string_view name, const std::vector<std::string>& ca
     const auto cut = candidates.begin() + static_cast<std::ptrdiff_t>(kMaxListedNames);
     return text + join({candidates.begin(), cut}) + ", … (" + std::to_string(candidates.size() - kMaxListedNames) +
            " more)";
+}
+
+std::string lowerCase(std::string_view text) {
+    std::string lower(text);
+    for (char& c : lower) {
+        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+    }
+    return lower;
 }
 
 std::string join(const std::vector<std::string>& words, std::string_view separator) {

@@ -16,6 +16,9 @@ std::vector<std::string> nearestNames(std::string_view name, const std::vector<s
 /// listed.
 std::string didYouMean(std::string_view name, const std::vector<std::string>& candidates, std::string_view what);
 
+/// With the letters A to Z small; others as they are, whatever the locale.
+std::string lowerCase(std::string_view text);
+
 /// "a, b, c".
 std::string join(const std::vector<std::string>& words, std::string_view separator = ", ");
 

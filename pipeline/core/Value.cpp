@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <limits>
 
 #include <fmt/format.h>
 
@@ -116,6 +117,8 @@ void writeValue(std::string& out, const Value& value, int indent, int depth) {
 }
 
 }  // namespace
+
+bool fitsFloat(double number) { return std::abs(number) <= double(std::numeric_limits<float>::max()); }
 
 Value Value::makeBool(bool value, SourceLoc where) {
     Value v;

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <charconv>
 #include <map>
 #include <optional>
@@ -108,9 +107,7 @@ std::string plainToken(const std::string& token) {
                                                                             {"FLOATCONSTANT", "a number"},
                                                                             {"$end", "the end of the program"}};
     if (const auto known = kTokens.find(token); known != kTokens.end()) return known->second;
-    std::string word = token;
-    std::transform(word.begin(), word.end(), word.begin(), [](unsigned char c) { return std::tolower(c); });
-    return "'" + word + "'";
+    return "'" + lowerCase(token) + "'";
 }
 
 /// "syntax error, unexpected RETURN, expecting COMMA or SEMICOLON" → "unexpected 'return', expected ',' or ';'".

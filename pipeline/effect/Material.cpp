@@ -217,7 +217,7 @@ bool Material::checkNumbers(const EffectProperty& property, const Value& value, 
     for (std::uint32_t i = 0; i < countOf(value); ++i) {
         const double number = component(value, i);
         const SourceLoc& where = value.isNumber() ? value.where() : value.items()[i].where();
-        if (!(std::abs(number) <= double(std::numeric_limits<float>::max()))) {
+        if (!fitsFloat(number)) {
             problems.error(where, fmt::format("property '{}' is {}, more than a float holds", property.name, number),
                            "give a number that a shader can compute with");
             return false;

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <span>
 
 #include "core/StateNames.h"
@@ -44,12 +43,6 @@ constexpr std::array<Named<Topology>, 6> kTopologies = {{{"point_list", Topology
 constexpr std::array<Named<std::uint8_t>, 6> kColorMasks = {
     {{"none", 0}, {"r", 1}, {"g", 2}, {"b", 4}, {"a", 8}, {"all", 15}}};
 
-std::string lower(std::string text) {
-    std::transform(text.begin(), text.end(), text.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return text;
-}
-
 template <class Enum, std::size_t N>
 std::vector<std::string> wordsOf(const std::array<Named<Enum>, N>& names) {
     std::vector<std::string> words;
@@ -73,7 +66,7 @@ void readEnum(KeyReader& reader, const char* key, const std::array<Named<Enum>, 
             reader.string(key);
         return;
     }
-    const std::string word = lower(value->string());
+    const std::string word = lowerCase(value->string());
     for (const auto& named : names) {
         if (word == named.name) {
             out = named.value;
@@ -97,7 +90,7 @@ void expectDefault(KeyReader& reader, const char* key, const Value& standard) {
     const Value* value = reader.find(key);
     if (value == nullptr || !reader.strict()) return;
     bool same = value->type() == standard.type();
-    if (same && value->isString()) same = lower(value->string()) == standard.string();
+    if (same && value->isString()) same = lowerCase(value->string()) == standard.string();
     if (same && value->isBool()) same = value->boolean() == standard.boolean();
     if (same && value->isNumber()) same = value->number() == standard.number();
     if (same) return;
@@ -194,7 +187,7 @@ void readColorMask(KeyReader& reader, std::uint8_t& mask) {
     if (value == nullptr) return;
     if (value->isInteger() && value->integer() >= 0 && value->integer() <= 15)
         mask = static_cast<std::uint8_t>(value->integer());
-    else if (value->isString() && !reader.strict() && readMaskLetters(lower(value->string()), mask))
+    else if (value->isString() && !reader.strict() && readMaskLetters(lowerCase(value->string()), mask))
         return;
     else if (value->isString())
         readEnum(reader, "blendColorMask", kColorMasks, mask);
@@ -238,7 +231,7 @@ void readBlend(KeyReader& reader, RenderState& state) {
 
 /// The name of a primitive in Cocos' own files, which may hold its number; empty when there is none to look up.
 std::string primitiveName(const Value& value) {
-    if (value.isString()) return lower(value.string());
+    if (value.isString()) return lowerCase(value.string());
     const bool known = value.isInteger() && value.integer() >= 0 && value.integer() < int(kTopologyNames.size());
     return known ? kTopologyNames[std::size_t(value.integer())] : "";
 }

@@ -49,6 +49,14 @@ float cocosRange(const Light& light, float exposure) {
     return light.range > 0 ? light.range : std::sqrt(std::max(power(light), 0.0f) * exposure / (kPi * kDarkest));
 }
 
+Aabb cocosReach(const Light& light, float exposure) {
+    const float range = cocosRange(light, exposure);
+    Aabb reach;
+    reach.add(light.position - range);
+    reach.add(light.position + range);
+    return reach;
+}
+
 float ambientScale(const Scene& scene) {
     const Ambient ambient = ambientOf(scene);
     const glm::vec3 most = glm::max(ambient.sky, ambient.ground);
@@ -85,11 +93,7 @@ std::vector<std::size_t> relevantLights(const FrameView& view, const Scene& scen
     for (std::size_t i = 0; i < scene.lights.size(); ++i) {
         const Light& light = scene.lights[i];
         if (light.type == LightType::Directional) continue;
-        Aabb reach;
-        const float range = cocosRange(light, view.exposure);
-        reach.add(light.position - range);
-        reach.add(light.position + range);
-        if (!frustum.intersects(reach)) continue;
+        if (!frustum.intersects(cocosReach(light, view.exposure))) continue;
         const glm::vec3 offset = light.position - eye;
         score[i] = power(light) / std::max(glm::dot(offset, offset), kCocosLightSize * kCocosLightSize);
         seen.push_back(i);

@@ -35,6 +35,8 @@ inline constexpr float kCocosLightSize = 0.15f;
 /// How far a light reaches: its range; where it has none, until it has fallen below one step of an 8-bit picture on a
 /// white surface.
 float cocosRange(const Light& light, float exposure);
+/// The box around that range, in world space.
+Aabb cocosReach(const Light& light, float exposure);
 
 /// Indices of the point and spot lights that CCForwardLight holds, at most `most`, brightest at the camera first: by
 /// intensity over squared distance, ties by index. Lights whose range does not reach into the view are left out.

@@ -48,13 +48,9 @@ FrameLights uploadSingleLights(LocalSet& locals, const PipelineDesc& desc, const
         const Light& light = scene.lights[index];
         blocks.push_back(singleLight(cocosLights(view, scene, {index}, look), 0));
         const bool casts = &light == shadowed;
-        LitLight lit{.reach = {},
-                     .shadow = shadowBlock(desc.profile, casts ? &*seen : nullptr, &light,
-                                           shadowSettings(desc, true, view.extent))};
-        const float range = cocosRange(light, view.exposure);
-        lit.reach.add(light.position - range);
-        lit.reach.add(light.position + range);
-        out.single.push_back(std::move(lit));
+        out.single.push_back({.reach = cocosReach(light, view.exposure),
+                              .shadow = shadowBlock(desc.profile, casts ? &*seen : nullptr, &light,
+                                                    shadowSettings(desc, true, view.extent))});
     }
     locals.writeSingleLights(blocks);
     return out;

@@ -3,8 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cctype>
 #include <optional>
 #include <span>
 
@@ -44,9 +42,7 @@ public:
         if (value->isInteger() && value->integer() >= 0 && value->integer() < static_cast<std::int64_t>(names.size()))
             return static_cast<std::size_t>(value->integer());
         if (value->isString()) {
-            std::string word = value->string();
-            std::transform(word.begin(), word.end(), word.begin(),
-                           [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+            const std::string word = lowerCase(value->string());
             for (std::size_t i = 0; i < names.size(); ++i)
                 if (word == names[i]) return i;
         }

@@ -120,7 +120,7 @@ private:
 
     StageDeclaration& declaration_;
     const StageDesc& desc_;
-    const RunInfo& run_;
+    RunInfo run_;
     const PipelineDesc* pipeline_;
     std::size_t renamed_ = 0;  ///< Colour and storage outputs declared so far.
 };

@@ -13,12 +13,6 @@ namespace crevice {
 
 namespace {
 
-std::string lowered(std::string text) {
-    std::transform(text.begin(), text.end(), text.begin(),
-                   [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
-    return text;
-}
-
 int rankOf(const std::string& type) {
     if (type == "discrete") return 0;
     if (type == "integrated") return 1;
@@ -45,9 +39,9 @@ bool isNumber(const std::string& text) {
 /// True when `wanted` is the device's index, or a part of its name or driver in any case.
 bool matches(const DeviceInfo& device, std::size_t index, const std::string& wanted) {
     if (isNumber(wanted)) return std::stoul(wanted) == index;
-    const std::string part = lowered(wanted);
-    return lowered(device.name).find(part) != std::string::npos ||
-           lowered(device.driver).find(part) != std::string::npos;
+    const std::string part = lowerCase(wanted);
+    return lowerCase(device.name).find(part) != std::string::npos ||
+           lowerCase(device.driver).find(part) != std::string::npos;
 }
 
 }  // namespace

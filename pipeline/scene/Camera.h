@@ -28,9 +28,6 @@ struct Camera {
     static Camera lookAt(const glm::vec3& eye, const glm::vec3& target, const glm::vec3& up = {0, 1, 0});
 };
 
-/// A view from the front right above that frames the box for an aspect ratio.
-Camera frameBounds(const Aabb& bounds, float fovY, float aspect);
-
 /// Fills near and far where they are 0, so that the bounds are inside with a margin and far / near stays sensible: near
 /// is never below far / 4000: a 32-bit depth buffer then tells surfaces at the far end apart that are 1/4000 of their
 /// distance behind each other (2^-24 z² / near, and better closer by).

@@ -15,6 +15,9 @@ namespace crevice {
 
 std::array<glm::vec3, 8> corners(const Aabb& box);
 
+/// A view from the front right above that frames the box for an aspect ratio.
+Camera frameBounds(const Aabb& bounds, float fovY, float aspect);
+
 /// A few points in world space, such that a view from the default direction that holds them holds the scene, but for 2
 /// % of its size. Of scenes with more than 500,000 vertices to draw, and of meshes without vertices, the corners of
 /// boxes. Empty for an empty scene.

@@ -7,6 +7,7 @@
 #include <glm/gtc/matrix_access.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 
+#include "scene/Framing.h"
 #include "scene/Scene.h"
 
 namespace crevice {

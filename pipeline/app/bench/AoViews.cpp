@@ -10,6 +10,7 @@
 #include "core/Document.h"
 #include "core/Error.h"
 #include "core/Text.h"
+#include "scene/Framing.h"
 #include "scene/SceneAsset.h"
 #include "scene/SceneFields.h"
 
