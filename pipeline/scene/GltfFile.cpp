@@ -168,8 +168,13 @@ std::size_t File::bytesHeld() const {
     return bytes;
 }
 
+void File::tell(std::string_view what, double share) const {
+    if (options.progress) options.progress(what, float(std::min(share, 1.0)));
+}
+
 File open(const fs::path& path, const LoadOptions& options) {
     File file{.name = path.string(), .options = options};
+    file.tell("reading", 0);
     file.content = readBytes(path, std::min(options.limits.maxFileBytes, std::size_t(0xffffffff)));
     parseDocument(file);
     checkVersion(file);
@@ -181,6 +186,7 @@ File open(const fs::path& path, const LoadOptions& options) {
     resources.readBuffers();
     resources.readBufferViews();
     resources.readImages();
+    file.tell("checking", 0);
     for (std::size_t i = 0; i < file.model.accessors.size(); ++i) checkAccessor(file, i);
     checkRules(file);
     checkAttributes(file);

@@ -79,15 +79,24 @@ SamplerDesc readSampler(const File& file, int index) {
     return to;
 }
 
-void decodeAll(std::vector<std::pair<const ImagePart*, Picture*>>& jobs, const Limits& limits) {
+void decodeAll(const File& file, std::vector<std::pair<const ImagePart*, Picture*>>& jobs) {
     std::atomic<std::size_t> next = 0;
-    std::vector<std::jthread> workers;
+    const auto takeOne = [&] {
+        const std::size_t job = next++;
+        if (job >= jobs.size()) return false;
+        *jobs[job].second = decodeOne(*jobs[job].first, file.options.limits);
+        return true;
+    };
+    std::vector<std::jthread> helpers;
     const std::size_t count = std::min<std::size_t>(jobs.size(), std::max(1u, std::thread::hardware_concurrency()));
-    for (std::size_t i = 0; i < count; ++i)
-        workers.emplace_back([&] {
-            for (std::size_t job = next++; job < jobs.size(); job = next++)
-                *jobs[job].second = decodeOne(*jobs[job].first, limits);
+    for (std::size_t i = 1; i < count; ++i)
+        helpers.emplace_back([&] {
+            while (takeOne()) {
+            }
         });
+    do {
+        file.tell("decoding pictures", jobs.empty() ? 1 : double(next) / double(jobs.size()));
+    } while (takeOne());
 }
 
 }  // namespace
@@ -150,7 +159,7 @@ std::vector<SceneTexture> Images::decode() {
         result.problem = refuse(image, index, file_.options.limits, usesLeft[index], bytesLeft_);
         if (result.problem.empty()) jobs.emplace_back(&image, &result);
     }
-    decodeAll(jobs, file_.options.limits);
+    decodeAll(file_, jobs);
 
     for (const auto& [index, result] : decoded) {
         const ImagePart& image = file_.model.images[std::size_t(index)];

@@ -27,6 +27,17 @@ void checkLights(const File& file) {
     }
 }
 
+namespace {
+
+// The specification, 3.10.3: a camera of another aspect ratio than the picture's is neither cropped nor stretched. What
+// it frames is all in the picture, which shows more at the sides or, taller by this, above and below.
+double heightFactor(const File& file, double ownAspect) {
+    const double aspect = file.options.aspect;
+    return aspect > 0 && ownAspect > aspect ? ownAspect / aspect : 1;
+}
+
+}  // namespace
+
 std::optional<Camera> readCamera(const File& file, int index, const glm::mat4& world, const std::string& otherName) {
     const std::size_t camera = std::size_t(index);
     const Value& from = file.item("cameras", camera);
@@ -46,9 +57,10 @@ std::optional<Camera> readCamera(const File& file, int index, const glm::mat4& w
     to.far = float(numberOr(*lens, "zfar", 0));
     if (type == "orthographic") {
         to.orthographic = true;
-        to.orthoHeight = float(2 * std::abs(numberOr(*lens, "ymag", 0)));
-        if (!(to.orthoHeight > 0)) {
-            file.fault("cameras", camera, "'ymag' is 0: it is left out");
+        const double width = std::abs(numberOr(*lens, "xmag", 0)), height = std::abs(numberOr(*lens, "ymag", 0));
+        to.orthoHeight = float(2 * height * (height > 0 ? heightFactor(file, width / height) : 1));
+        if (!(to.orthoHeight > 0 && std::isfinite(to.orthoHeight))) {
+            file.fault("cameras", camera, fmt::format("'ymag' is {}: it is left out", height));
             return std::nullopt;
         }
     } else {
@@ -57,6 +69,8 @@ std::optional<Camera> readCamera(const File& file, int index, const glm::mat4& w
             file.fault("cameras", camera, "'yfov' is not below pi: it is left out");
             return std::nullopt;
         }
+        const double factor = heightFactor(file, numberOr(*lens, "aspectRatio", 0));
+        if (factor > 1) to.fovY = 2 * std::atan(std::tan(0.5f * to.fovY) * float(factor));
     }
     return to;
 }

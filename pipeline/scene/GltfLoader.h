@@ -5,8 +5,10 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/Limits.h"
@@ -17,6 +19,9 @@ namespace crevice {
 
 /// What a scene file may ask for before it is refused.
 using LoadLimits = Limits;
+
+/// Is told now and then what is being done and how much of that is, 0 … 1; on the thread that loads.
+using LoadProgress = std::function<void(std::string_view what, float share)>;
 
 struct LoadOptions {
     const Log& log;  ///< Receives warnings and notes.
@@ -29,6 +34,10 @@ struct LoadOptions {
     std::string animation{};      ///< Name or index of the animation to pose by; empty = the first, if `time` is given.
     std::optional<float> time{};  ///< Seconds into the animation; nothing = the rest pose (0 if `animation` is given).
     bool strict = false;          ///< Formal faults that do no harm are errors, not warnings.
+    /// Width / height of the pictures to be taken. All that a glTF's camera frames is then in them: one that is wider
+    /// than the picture sees more above and below. 0 = unknown: the camera's height counts.
+    float aspect = 0;
+    LoadProgress progress{};
 };
 
 /// Throws Error with the file and the path inside it (`accessors[3]`).

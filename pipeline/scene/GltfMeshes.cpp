@@ -241,9 +241,13 @@ std::optional<Mesh> Meshes::readPrimitive(int meshIndex, std::size_t index, cons
     if (mesh.indices.empty()) return std::nullopt;
     mesh.vertices.reserve(count);
     for (std::size_t i = 0; i < count; ++i) {
-        if (i % kVerticesAtOnce == 0 && attributes.weights.empty()) reading.passed(i);
+        if (i % kVerticesAtOnce == 0) {
+            if (attributes.weights.empty()) reading.passed(i);
+            file_.tell("converting geometry", double(made_ + i) / double(expected_));
+        }
         mesh.vertices.push_back(makeVertex(attributes, i));
     }
+    made_ += count;
     bend(file_, meshIndex, attributes, deformation.joints, mesh.vertices);
     const bool hasNormals = attributes.normal.components != 0;
     if (!hasNormals && mesh.topology == MeshTopology::Triangles) makeFlat(mesh);
@@ -264,6 +268,10 @@ void Meshes::expect(const std::vector<std::pair<int, Deformation>>& wanted) {
     for (const auto& [mesh, deformation] : wanted)
         if (keys.insert({mesh, deformation.skin, deformation.weights}).second) ++times[mesh];
     release_.expect(times);
+    for (const auto& [mesh, count] : times)
+        for (const PrimitivePart& primitive : file_.model.meshes[std::size_t(mesh)].primitives)
+            if (const auto position = primitive.attributes.find("POSITION"); position != primitive.attributes.end())
+                expected_ += count * file_.model.accessors[std::size_t(position->second)].count;
 }
 
 const std::vector<Part>& Meshes::parts(int mesh, const Deformation& deformation) {

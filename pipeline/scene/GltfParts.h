@@ -60,6 +60,8 @@ struct File {
     void lack(std::string_view list, std::size_t index, const std::string& message) const;
     void warn(std::string_view list, std::size_t index, const std::string& message) const;
     void note(const std::string& message) const;
+    /// To LoadOptions::progress, if it is there.
+    void tell(std::string_view what, double share) const;
     /// Counts numbers that are looked at. Throws Error when they are many times more than the file has bytes: accessors
     /// may share bytes, so that a small file can name any number of them.
     void spend(std::size_t numbers) const;
@@ -298,6 +300,7 @@ private:
     std::vector<Mesh>& meshes_;
     std::map<Key, std::vector<Part>> parts_;
     std::size_t vertexCount_ = 0, indexCount_ = 0;
+    std::size_t made_ = 0, expected_ = 0;  ///< Vertices, for LoadOptions::progress.
 };
 
 /// A node of the shown scene.

@@ -126,6 +126,7 @@ void Resources::readBuffers() {
                 fmt::format("the buffers are larger than the limit of {} bytes", file_.options.limits.maxFileBytes),
                 raiseLimit("file-bytes"));
         readBuffer(i, file_.model.buffers[i]);
+        file_.tell("reading", double(i + 1) / double(file_.model.buffers.size()));
     }
 }
 

@@ -273,5 +273,55 @@ TEST(Gltf, BoundsOfAccessorsWithoutDataAreNotChecked) {
     EXPECT_EQ(listener.text, "");
 }
 
+// 3.10.3: a picture of another aspect ratio neither crops nor stretches what the camera frames.
+TEST(Gltf, CamerasFrameAllThatTheySeeAtAnyAspect) {
+    Document document;
+    document.nodes = R"({"camera": 0}, {"camera": 1}, {"camera": 2})";
+    document.roots = "0, 1, 2";
+    document.rest = R"(, "cameras": [
+        {"type": "orthographic", "orthographic": {"xmag": -3, "ymag": 1, "znear": 0, "zfar": 10}},
+        {"type": "perspective", "perspective": {"yfov": 1.5707963, "aspectRatio": 2, "znear": 1}},
+        {"type": "perspective", "perspective": {"yfov": 1, "znear": 1}}])";
+    const TempFolder folder;
+    const auto path = folder.write("t.gltf", document.json());
+    const auto load = [&](float aspect) {
+        Listener listener;
+        return loadGltf(path, {.log = listener.log, .aspect = aspect}).cameras;
+    };
+    for (const float aspect : {0.0f, 3.0f, 4.0f}) {  // unknown, the camera's own, wider
+        EXPECT_EQ(load(aspect).at(0).orthoHeight, 2) << aspect;
+        EXPECT_FLOAT_EQ(load(aspect).at(1).fovY, 1.5707963f) << aspect;
+    }
+    EXPECT_FLOAT_EQ(load(1.5f).at(0).orthoHeight, 4) << "6 wide, as the camera's frame";
+    EXPECT_FLOAT_EQ(load(1).at(1).fovY, 2 * std::atan(2.0f)) << "as far aside as twice the height of 45 degrees";
+    EXPECT_EQ(load(0.5f).at(2).fovY, 1) << "it names no aspect ratio";
+}
+
+TEST(Gltf, ProgressIsToldInOrder) {
+    Document document;
+    document.nodes = R"({"mesh": 0})";
+    document.primitive = R"(, "indices": 1, "material": 0)";
+    document.rest = R"(, "materials": [{"emissiveTexture": {"index": 0}}], "textures": [{"source": 0}],
+        "images": [{"uri": "data:image/png;base64,)" +
+                    std::string(kPng) + R"("}])";
+    const TempFolder folder;
+    std::vector<std::string> told;
+    std::vector<float> shares;
+    Listener listener;
+    loadGltf(folder.write("t.gltf", document.json()), {.log = listener.log, .progress = [&](auto what, float share) {
+                                                           if (told.empty() || told.back() != what) {
+                                                               told.emplace_back(what);
+                                                               shares.push_back(0);
+                                                           }
+                                                           EXPECT_GE(share, shares.back());
+                                                           EXPECT_LE(share, 1);
+                                                           shares.back() = share;
+                                                       }});
+    EXPECT_EQ(told, (std::vector<std::string>{"reading", "checking", "converting geometry", "decoding pictures"}));
+    EXPECT_EQ(shares.front(), 1) << "the only buffer";
+    EXPECT_EQ(shares.back(), 1) << "the only picture";
+    EXPECT_FALSE(contains(listener.text, "converting")) << "a log is no place for it";
+}
+
 }  // namespace
 }  // namespace crevice

@@ -47,7 +47,9 @@ Traced trace(const ReferenceOptions& options, ReferenceRequest& request) {
     const Log log = makeLog(options.console, progress);
     const AssetRoots roots = AssetRoots::standard();
     progress.show("loading …");
-    const Scene scene = loadSceneFile(findScene(roots, options.scene), roots, log, options.loading);
+    SceneOptions loading = options.loading;
+    loading.aspect = static_cast<float>(request.view.size.x) / static_cast<float>(request.view.size.y);
+    const Scene scene = loadSceneFile(findScene(roots, options.scene), roots, log, loading);
     Traced traced{.camera = resolveCamera(request.view, scene)};
     const float automatic = automaticLength(scene.bounds());
     for (std::vector<WantedMap>* list : {&request.wanted, &request.radii}) {

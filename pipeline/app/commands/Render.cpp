@@ -72,9 +72,15 @@ private:
 
 void RenderRun::loadScene(std::size_t index) {
     const RenderItem& item = job_.items[index];
-    progress_.show(fmt::format("{}/{} {}: loading …", index + 1, job_.items.size(), item.scene.name));
+    const std::string title = fmt::format("{}/{} {}", index + 1, job_.items.size(), item.scene.name);
+    progress_.show(title + ": loading …");
     watch_.lap();
-    OpenedScene opened = openScene(item.scene, pipeline_, makeLog(options_.console, progress_), options_.loading);
+    SceneOptions loading = options_.loading;
+    loading.aspect = static_cast<float>(job_.view.size.x) / static_cast<float>(job_.view.size.y);
+    loading.progress = [this, &title](std::string_view what, float share) {
+        progress_.show(fmt::format("{}: {} {:.0f} %", title, what, 100 * share));
+    };
+    OpenedScene opened = openScene(item.scene, pipeline_, makeLog(options_.console, progress_), loading);
     scene_ = std::move(opened.scene);
     if (index == 0) sceneSets_ = std::move(opened.sets);
     if (opened.background && options_.view.background.empty()) job_.view.background = *opened.background;
@@ -117,6 +123,7 @@ void RenderRun::renderScene(std::size_t index) {
         if (std::find(view.keep.begin(), view.keep.end(), dump.target) == view.keep.end())
             view.keep.push_back(dump.target);
     }
+    progress_.show(fmt::format("{}/{} {}: uploading …", index + 1, job_.items.size(), item.scene.name));
     renderer_->setScene(std::move(scene_));
     timings_.prepareMs += watch_.lap();
     timings_.scenes.push_back({.scene = item.scene.name, .stages = {}, .framesMs = {}});

@@ -68,6 +68,8 @@ LoadOptions makeLoadOptions(const AssetRoots& roots, const Log& log, const Scene
     load.scene = options.scene;
     load.animation = options.animation;
     load.strict = options.strict;
+    load.aspect = options.aspect;
+    load.progress = options.progress;
     if (!options.time.empty()) {
         const double seconds = parseNumber("--time", options.time);
         if (!(seconds >= 0 && seconds <= 1e6))

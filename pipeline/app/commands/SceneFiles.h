@@ -23,6 +23,8 @@ struct SceneOptions {
     bool allowOutside = false;              ///< --allow-outside
     std::vector<std::string> allowedPaths;  ///< --allow-path DIR
     std::vector<std::string> limits;        ///< --limit NAME=VALUE
+    float aspect = 0;                       ///< Of the pictures, as LoadOptions has it.
+    LoadProgress progress{};
 };
 void addSceneOptions(CLI::App& command, SceneOptions& options);
 

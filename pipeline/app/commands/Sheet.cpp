@@ -167,7 +167,9 @@ private:
 
     Image render(std::uint32_t index) {
         progress_.show(fmt::format("{}/{} {} …", index + 1, scenes_.size(), scenes_[index].name));
-        OpenedScene opened = openScene(scenes_[index], pipeline_, log_, options_.loading);
+        SceneOptions loading = options_.loading;
+        loading.aspect = static_cast<float>(layout_.tile.x) / static_cast<float>(layout_.tile.y);
+        OpenedScene opened = openScene(scenes_[index], pipeline_, log_, loading);
         environment_.apply(opened.scene, log_, limits_);
         View view = view_;
         if (opened.background && options_.background.empty()) view.background = *opened.background;
