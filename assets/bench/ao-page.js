@@ -9,7 +9,7 @@ const columns = [
   ["case", "label", v => v], ["RMSE", "rmse", digits], ["of white", "of_white", digits], ["MAE", "mae", digits], ["bias", "bias", digits],
   ["|bias|", "abs_bias", digits], ["P95", "p95", digits], ["SSIM", "ssim", digits], ["correlation", "correlation", digits], ["skill", "skill", digits],
   ["noise", "noise", v => digits(v, 4)], ["edge", "edge", digits], ["border", "border", digits], ["contact", "contact", digits],
-  ["fetches", "taps_per_pixel", v => v ? digits(v, v % 1 ? 1 : 0) : "–"], ["CPU share", "cpu_share", digits],
+  ["fetches", "taps_per_pixel", v => v ? digits(v, v % 1 ? 1 : 0) : "–"], ["CPU share", "cpu_share", digits], ["of it guard", "guard_share", v => v ? digits(v) : "–"],
 ];
 const palette = ["#0b66c3", "#c2410c", "#15803d", "#7e22ce", "#b91c1c", "#0f766e", "#a16207", "#475569", "#be185d"];
 const techniques = [...new Set(data.rows.map(r => r.technique))].filter(t => !isFixed({ technique: t }));

@@ -7,6 +7,8 @@ namespace crevice {
 
 glm::uvec2 FrameContext::extent() const { return execution_.extent(); }
 
+const FrameCrop& FrameContext::part() const { return execution_.part(); }
+
 void FrameContext::draw(DrawId draw) { execution_.draw(draw); }
 
 void FrameContext::drawQueue(QueueId queue) {

@@ -7,6 +7,7 @@
 #include <glm/glm.hpp>
 
 #include "flow/StageIo.h"
+#include "plan/TargetSize.h"
 #include "scene/Scene.h"
 
 namespace crevice {
@@ -39,6 +40,9 @@ public:
     const Scene& scene() const { return scene_; }
     /// Pixels of what this stage writes; the frame's for a stage that writes nothing.
     glm::uvec2 extent() const;
+    /// The part of extent() that is needed: what shows the frame and what later stages read of the guard. Draws are cut
+    /// to it; the rest keeps what it was cleared to. Dispatches are not cut: they have to write all that they own.
+    const FrameCrop& part() const;
 
     /// Fills a block of set 0 for the draws recorded after it.
     template <class T>

@@ -190,7 +190,8 @@ StageUse FrameProgram::useOf(const StageProgram& stage, Problems& problems) cons
                  .compute = false,
                  .writes = stage.declaration.writes,
                  .reads = {},
-                 .where = desc.where};
+                 .where = desc.where,
+                 .reach = desc.reach};
     const auto addReads = [&](const EffectVariant& variant, const RenderState& state, const std::vector<Wire>& wires) {
         for (TargetRead& read : findReads(desc_, variant, wires)) {
             const bool known = std::any_of(use.reads.begin(), use.reads.end(), [&](const TargetRead& other) {

@@ -227,6 +227,9 @@ void RenderPipeline::beginStage(const StageExecution& execution) {
         }
     }
     commands_.beginRendering(rendering);
+    const FrameCrop& part = execution.part();
+    commands_.setScissor(static_cast<std::int32_t>(part.offset.x), static_cast<std::int32_t>(part.offset.y),
+                         part.extent.x, part.extent.y);
 }
 
 void RenderPipeline::recordStage(StageExecution& execution, const FrameView& view) {
@@ -235,9 +238,9 @@ void RenderPipeline::recordStage(StageExecution& execution, const FrameView& vie
     recordTransitions(execution.planned().before);
     globals_.restore();
     const bool draws = !use.compute && !execution.planned().writes.empty();
+    execution.beginFrame(frame_, guard_);
     if (draws) beginStage(execution);
     FrameContext frame(execution, view, scene_->scene());
-    execution.beginFrame();
     execution.stage().render(frame);
     if (draws) commands_.endRendering();
     commands_.endLabel();

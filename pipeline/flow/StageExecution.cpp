@@ -9,6 +9,7 @@
 #include "flow/VertexInput.h"
 #include "gfx/Device.h"
 #include "gfx/Pipeline.h"
+#include "plan/GuardReach.h"
 
 namespace crevice {
 namespace {
@@ -205,8 +206,12 @@ Groups StageExecution::groupsFor(DrawId draw) const {
     return {groupCount(extent_.x, local[0]), groupCount(extent_.y, local[1]), 1};
 }
 
-void StageExecution::beginFrame() {
+void StageExecution::beginFrame(glm::uvec2 frame, std::uint32_t guard) {
     for (QueueViews& views : views_) views.used = 0;
+    part_ = {{0, 0}, extent_};
+    if (planned_.writes.empty() || guard == 0) return;
+    const TargetWrite& first = planned_.writes.front().write;
+    part_ = drawnPart(context_.targets.desc(first.target), frame, guard, planned_.beyond, first.mip);
 }
 
 QueueView& StageExecution::nextView(QueueId queue) {

@@ -15,6 +15,7 @@
 #include "flow/QueueView.h"
 #include "flow/ShaderBinding.h"
 #include "flow/VertexInput.h"
+#include "plan/TargetSize.h"
 
 namespace crevice {
 
@@ -50,12 +51,14 @@ public:
 
     /// Pixels of what the stage writes; the frame's when it writes nothing.
     glm::uvec2 extent() const { return extent_; }
+    /// What of it has to be drawn: see FrameContext::part().
+    const FrameCrop& part() const { return part_; }
     const PlannedStage& planned() const { return planned_; }
     RenderStage& stage() const { return *program_.stage; }
     const StageProgram& program() const { return program_; }
 
-    /// Before the stage renders, once a frame.
-    void beginFrame();
+    /// Before the stage renders, once a frame, of `frame` pixels with `guard` pixels on each side.
+    void beginFrame(glm::uvec2 frame, std::uint32_t guard);
 
     // What FrameContext hands on.
     void upload(BlockId block, std::span<const std::byte> bytes);
@@ -116,6 +119,7 @@ private:
     };
     std::vector<QueueViews> views_;  ///< [queue]
     glm::uvec2 extent_{0};
+    FrameCrop part_;
 };
 
 }  // namespace crevice

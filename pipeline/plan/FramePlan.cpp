@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "core/Text.h"
+#include "plan/GuardReach.h"
 #include "plan/PlanChecks.h"
 
 namespace crevice {
@@ -66,6 +67,7 @@ public:
         restoreNeverWritten();
         if (!problems_.hasErrors()) reportUnread();
         problems_.throwIfErrors();
+        planGuard(desc_, plan_);
         plan_.notes = std::move(problems_);
         return std::move(plan_);
     }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -55,6 +56,7 @@ struct StageUse {
     std::vector<TargetWrite> writes;  ///< Colour outputs in location order.
     std::vector<TargetRead> reads;
     SourceLoc where;
+    std::optional<std::uint32_t> reach{};  ///< StageDesc::reach.
 };
 
 struct Transition {
@@ -64,6 +66,9 @@ struct Transition {
     std::uint32_t mip = kAllMips;  ///< One level, or every level of the target.
     bool operator==(const Transition&) const = default;
 };
+
+/// All of a guard, however wide it is.
+inline constexpr std::uint32_t kWholeGuard = ~0u;
 
 struct PlannedWrite {
     TargetWrite write;
@@ -77,6 +82,7 @@ struct PlannedStage {
     std::vector<PlannedWrite> writes;
     std::vector<TargetRead> reads;
     std::vector<Transition> before;
+    std::uint32_t beyond = kWholeGuard;  ///< Pixels of the guard that the stage has to draw: see planGuard().
 };
 
 /// First and last planned stage that touches a target, and everything it is used as.

@@ -78,7 +78,7 @@ Value inReadingOrder(const Value& document) {
 Value flattenChain(const Chain& chain, const PipelineRequest& request, FlattenOptions mode, Problems& problems) {
     (void)loadChain(chain, request, problems);  // Only a document without mistakes is flattened.
     PipelineTree tree = mergeChain(chain, request.defaultPriority, problems);
-    const std::vector<OptionDesc> options = readOptions(tree.document, request.options, problems);
+    std::vector<OptionDesc> options = readOptions(tree.document, request.options, problems);
     if (mode == FlattenOptions::Resolve) applyChoiceSets(tree, options);
     applySets(tree, request.sets, problems);
     if (mode == FlattenOptions::Resolve) {

@@ -184,7 +184,7 @@ const KeySpec kChoiceKeys[] = {
     {.key = "set",
      .kind = KeyKind::Object,
      .help = "Values set while this choice is in force, by path: "
-             "`\"AoMain.defines.SLICES\": 1`."},
+             "`\"AoMain.defines.SLICES\": 1`. `\"$NAME\": 6` is what `auto` of the number option NAME stands for."},
     {.key = "help", .kind = KeyKind::Text, .help = "What it does."},
 };
 
@@ -283,6 +283,14 @@ const KeySpec kStageKeys[] = {
      .schema = R"({"type":"array","items":{"$ref":"#/$defs/queue"}})",
      .type = "list of queues",
      .defaultText = "the class's"},
+    {.key = "reach",
+     .kind = KeyKind::Integer,
+     .help =
+         "How far from its own pixel the stage reads targets, in pixels of what it writes: with a guard, the stages "
+         "before it draw no more of it than is read.",
+     .min = 0,
+     .max = 4096,
+     .defaultText = "unknown: the whole guard is drawn"},
 };
 
 const KeySpec kQueueKeys[] = {

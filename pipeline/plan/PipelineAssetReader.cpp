@@ -152,6 +152,7 @@ StageDesc TreeReader::readStage(const Value& value) {
     const ObjectReader reader(value, stageKeys(), what, problems_);
     stage.enabled = reader.flag("enabled", true);
     stage.priority = reader.integer("priority");
+    if (const auto reach = reader.integer("reach")) stage.reach = static_cast<std::uint32_t>(*reach);
     stage.effect = reader.text("effect");
     if (const Value* effect = reader.get("effect")) stage.effectWhere = effect->where();
     if (const Value* defines = reader.get("defines")) {
@@ -206,6 +207,8 @@ void TreeReader::readFlows(const Value* flows, const SourceLoc& document) {
 void readGuard(const Value& value, PipelineDesc& desc, Problems& problems) {
     const KeySpec& spec = *pipelineKeys().find("guard");
     desc.guardWhere = value.where();
+    // An option that nothing gave a number.
+    if (value.isString() && value.string() == "auto") return;
     if (value.isNumber() && value.number() >= spec.min && value.number() <= spec.max) {
         desc.guard = value.number();
     } else if (!value.isNumber()) {

@@ -66,6 +66,8 @@ struct StageDesc {
     std::vector<ReadWire> reads;
     std::vector<std::string> writes;
     std::vector<QueueDesc> queues;
+    /// How far from its own pixel it reads targets, in pixels of what it writes; null: nobody says.
+    std::optional<std::uint32_t> reach{};
     SourceLoc where;
 };
 

@@ -203,6 +203,7 @@ void Editor::set(const Value& edit) {
 }
 
 void Editor::setStage(const Value& edit, Value& stage) {
+    if (edit.find("effect")) stage.erase("reach");  // how far it reads is a property of the effect
     for (const Member& member : edit.members()) {
         if (member.key == "set") continue;
         if (member.key == "stage" || member.key == "name") {

@@ -97,6 +97,8 @@ private:
             setInMap(stage, key, what);
         } else if (stageKeys().find(key)) {
             setOwnKey(stage, what);
+            // How far it reads is a property of the effect.
+            if (!dryRun_ && key == "effect") stage.erase("reach");
         } else if (parts_.size() == 2 && !looksMistyped(key)) {
             setParam(stage, key);  // Stage.seed is short for Stage.params.seed; the class knows its own parameters.
         } else {

@@ -167,6 +167,9 @@ void mergeDocument(PipelineTree& tree, const Value& document, Problems& problems
             mergeSection(tree.document, value, "targets", "target", problems);
         if (member.key == "blocks" && value.isObject()) mergeSection(tree.document, value, "blocks", "block", problems);
         if (member.key == "options" && value.isObject())
+            for (const Member& option : value.members())
+                if (option.value.isNull()) tree.removed.push_back("$" + option.key);
+        if (member.key == "options" && value.isObject())
             mergeSection(tree.document, value, "options", "option", problems);
         if (member.key == "flows" && value.isArray()) mergeFlows(tree.document, value, problems);
     }

@@ -161,6 +161,42 @@ std::string longPath(const std::string& path) {
     return stageKeys().find(key) ? path : path.substr(0, dot) + ".params." + key;
 }
 
+/// "$guard" among a choice's sets is what `auto` of the option guard stands for.
+bool isAutoPath(const std::string& path) { return path.starts_with('$'); }
+
+/// The option that such a set names, with a range that its value fits.
+void checkAutoSet(const Value& document, const Member& set, Problems& problems) {
+    const Value& options = *document.find("options");
+    const std::string name = set.key.substr(1);
+    const auto declared = std::find_if(options.members().begin(), options.members().end(),
+                                       [&](const Member& option) { return option.key == name; });
+    if (declared == options.members().end()) {
+        std::vector<std::string> names;
+        for (const Member& known : options.members()) names.push_back(known.key);
+        problems.error(set.keyLoc, fmt::format("'{}' names no option", set.key), didYouMean(name, names, "options"));
+        return;
+    }
+    Problems reportedElsewhere;
+    std::vector<OptionDesc> read;
+    readOption(*declared, read, reportedElsewhere);
+    if (read[0].type != OptionType::Number) {
+        problems.error(set.keyLoc,
+                       fmt::format("option '{}' is no number: a choice cannot say what auto stands for", name),
+                       "set values of stages and targets by their paths");
+    } else if (!isAuto(set.value)) {
+        fits(set.value, read[0], set.value.where(), problems);
+    }
+}
+
+/// The last choice in force decides, where the caller left it open.
+void applyAutoSets(const std::vector<Member>& sets, std::vector<OptionDesc>& options) {
+    for (OptionDesc& option : options) {
+        if (!isAuto(option.value) || option.type != OptionType::Number) continue;
+        for (const Member& set : sets)
+            if (set.key == "$" + option.name) option.value = set.value;
+    }
+}
+
 std::string firstPart(const std::string& path) { return path.substr(0, path.find('.')); }
 
 }  // namespace
@@ -196,12 +232,16 @@ void checkChoiceSets(PipelineTree& tree, Problems& problems) {
     forEachChoice(tree.document, [&](auto&, auto&, Value& set) {
         std::erase_if(set.members(), [&](const Member& member) { return isGone(firstPart(member.key)); });
         const Value copy = set;  // The tree must not change under the path that is checked.
-        for (const Member& member : copy.members())
-            applySet(tree, member.key, member.value, member.keyLoc, problems, true);
+        for (const Member& member : copy.members()) {
+            if (isAutoPath(member.key))
+                checkAutoSet(tree.document, member, problems);
+            else
+                applySet(tree, member.key, member.value, member.keyLoc, problems, true);
+        }
     });
 }
 
-void applyChoiceSets(PipelineTree& tree, const std::vector<OptionDesc>& options) {
+void applyChoiceSets(PipelineTree& tree, std::vector<OptionDesc>& options) {
     std::vector<Member> sets;
     forEachChoice(tree.document, [&](const std::string& name, const std::string& choice, Value& set) {
         for (const OptionDesc& option : options) {
@@ -211,7 +251,9 @@ void applyChoiceSets(PipelineTree& tree, const std::vector<OptionDesc>& options)
         }
     });
     Problems reportedBefore;  // checkChoiceSets() has checked these paths.
-    for (const Member& member : sets) applySet(tree, member.key, member.value, member.keyLoc, reportedBefore);
+    for (const Member& member : sets)
+        if (!isAutoPath(member.key)) applySet(tree, member.key, member.value, member.keyLoc, reportedBefore);
+    applyAutoSets(sets, options);
 }
 
 void keepOptions(Value& document, const std::vector<OptionDesc>& options, const std::vector<std::string>& setPaths) {

@@ -18,8 +18,9 @@ std::vector<OptionDesc> readOptions(const Value& document, const std::map<std::s
 /// Drops choices' sets on stages that edits removed, checks the paths of the others.
 void checkChoiceSets(PipelineTree& tree, Problems& problems);
 
-/// Applies the sets that the values in force carry; their paths have been checked.
-void applyChoiceSets(PipelineTree& tree, const std::vector<OptionDesc>& options);
+/// Applies the sets that the values in force carry; their paths have been checked. A set of "$NAME" is the value of a
+/// number option that was left at `auto`.
+void applyChoiceSets(PipelineTree& tree, std::vector<OptionDesc>& options);
 
 /// Replaces "$name" in targets, flows and stages by the option's value at the place of use, and `enabled` by a bool.
 void substituteOptions(Value& document, const std::vector<OptionDesc>& options, Problems& problems);

@@ -1,6 +1,7 @@
 // A frame plan as people read it: the table of `crevice plan` and the Graphviz drawing.
 #include <algorithm>
 #include <array>
+#include <optional>
 #include <set>
 
 #include <fmt/format.h>
@@ -162,6 +163,24 @@ std::string legend(const FramePlan& plan) {
     return join(parts, "  ");
 }
 
+/// "GbufferStage, AoMain 44 px; AoDenoise1 2 px": what each stage draws of the guard, fixed sizes left out.
+std::string guardWords(const FramePlan& plan, const PipelineDesc& desc, std::uint32_t guard) {
+    std::string text;
+    std::optional<std::uint32_t> last;
+    for (const PlannedStage& stage : plan.stages) {
+        const bool hasGuard = std::any_of(stage.writes.begin(), stage.writes.end(), [&](const PlannedWrite& planned) {
+            const TargetDesc* target = desc.findTarget(planned.write.target);
+            return target && !target->size;
+        });
+        if (!hasGuard) continue;
+        const std::uint32_t pixels = std::min(guard, stage.beyond);
+        if (last) text += pixels == *last ? ", " : fmt::format(" {} px; ", *last);
+        text += plan.uses[stage.use].stage;
+        last = pixels;
+    }
+    return last ? text + fmt::format(" {} px", *last) : text;
+}
+
 std::string quoted(const std::string& text) {
     std::string result = "\"";
     for (const char c : text) {
@@ -194,8 +213,10 @@ std::string planTable(const FramePlan& plan, const PipelineDesc& desc, std::uint
         fmt::format(" {}  Memory {}×{}: {:.1f} MiB.  Unused: {}\n", legend(plan), width + 2 * guard, height + 2 * guard,
                     static_cast<double>(bytes) / (1 << 20), unused.empty() ? "–" : join(unused));
     if (guard > 0)
-        text += fmt::format(" Guard: {} pixels on each side ({} % of the height); pictures are cropped to {}×{}\n",
-                            guard, desc.guard, width, height);
+        text += fmt::format(
+            " Guard: {} pixels on each side ({} % of the height); pictures are cropped to {}×{}\n"
+            " Drawn of the guard: {}\n",
+            guard, desc.guard, width, height, guardWords(plan, desc, guard));
     if (!holding.empty()) text += fmt::format(" Never written, holding the clear value: {}\n", join(holding));
     if (!disabled.empty()) text += fmt::format(" Disabled: {}\n", join(disabled));
     return text;

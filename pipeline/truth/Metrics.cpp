@@ -37,6 +37,7 @@ MapMetrics measureMap(std::span<const float> map, std::span<const float> truth,
     }
     result.rmse = std::sqrt(mse);
     result.bias = meanA - meanT;
+    result.truthVariance = varianceT;
     if (varianceA > 0 && varianceT > 0) result.correlation = covariance / std::sqrt(varianceA * varianceT);
     if (varianceT > 0) result.skill = 1 - mse / varianceT;
     result.white = std::sqrt(whiteMse);
@@ -52,6 +53,18 @@ MapMetrics measureMap(std::span<const float> map, std::span<const float> truth,
 
 double noiseCorrected(double rmse, double truthNoise) {
     return std::sqrt(std::max(0.0, rmse * rmse - truthNoise * truthNoise));
+}
+
+void takeNoiseOff(MapMetrics& metrics, double truthNoise) {
+    metrics.rmse = noiseCorrected(metrics.rmse, truthNoise);
+    metrics.white = noiseCorrected(metrics.white, truthNoise);
+    metrics.fitRmse = noiseCorrected(metrics.fitRmse, truthNoise);
+    metrics.ofWhite = metrics.white > 0 ? metrics.rmse / metrics.white : 0;
+    const double variance = metrics.truthVariance - truthNoise * truthNoise;
+    if (variance <= 0) return;
+    metrics.skill = 1 - metrics.rmse * metrics.rmse / variance;
+    metrics.correlation = std::clamp(metrics.correlation * std::sqrt(metrics.truthVariance / variance), -1.0, 1.0);
+    metrics.truthVariance = variance;
 }
 
 }  // namespace crevice

@@ -20,7 +20,8 @@ struct MapMetrics {
     double white = 0;    ///< RMSE of an all-white map
     double slope = 0;    ///< Of the best fit a·slope + offset ≈ t (least squares); 0 when a is constant
     double offset = 0;
-    double fitRmse = 0;  ///< What the best fit leaves: √(⟨e²⟩ of the fit), σt √(1 - r²)
+    double truthVariance = 0;  ///< σt²
+    double fitRmse = 0;        ///< What the best fit leaves: √(⟨e²⟩ of the fit), σt √(1 - r²)
 };
 
 /// `isCounted` selects values (not 0); empty = all. All spans have one length; what is not finite in `map` counts as 0.
@@ -29,5 +30,12 @@ MapMetrics measureMap(std::span<const float> map, std::span<const float> truth,
 
 /// RMSE² without the truth's own noise (its standard error): √max(0, rmse² - noise²).
 double noiseCorrected(double rmse, double truthNoise);
+
+/// Takes the truth's own noise (its standard error) out of all that it makes worse: the mean squares of rmse, white,
+/// fitRmse and of the truth's variance in skill, and the correlation, which noise weakens by the square root of the
+/// truth's reliability, ρ = 1 - noise²/σt²: r / √ρ (C. Spearman, "The proof and measurement of association between two
+/// things", 1904). What is nothing but noise (ρ ≤ 0) keeps its correlation and skill. mae, p95, slope and offset stay
+/// as they are; the bias needs nothing.
+void takeNoiseOff(MapMetrics& metrics, double truthNoise);
 
 }  // namespace crevice

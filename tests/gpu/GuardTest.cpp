@@ -120,6 +120,86 @@ TEST_F(GuardBeam, FrameIsCutFromTheLargerOne) {
     }
 }
 
+/// What a combination of options and sets keeps of a frame.
+std::vector<Image> kept(Renderer& renderer, View view) {
+    view.keep = {"cc_ssaoMap", "aoPacked", "cc_ssaoBlurMap", "cc_lighting_resultMap"};
+    std::vector<Image> images{renderer.render(view)};
+    for (const std::string& name : view.keep) images.push_back(renderer.target(name));
+    return images;
+}
+
+/// Stages without "reach": everything in front of them is drawn over the whole guard.
+std::vector<StageSet> noReach() {
+    std::vector<StageSet> sets;
+    for (const char* stage :
+         {"AoDenoise1", "AoDenoise2", "AoDenoise3", "AoResolve", "LightingStage", "PostProcessStage", "Fxaa", "AoBent"})
+        sets.push_back({std::string(stage) + ".reach", "null"});
+    return sets;
+}
+
+std::uint32_t drawnBeyond(Renderer& renderer, const std::string& stage) {
+    const FramePlan& plan = renderer.pipeline().program().plan();
+    for (const PlannedStage& planned : plan.stages)
+        if (plan.uses[planned.use].stage == stage) return planned.beyond;
+    ADD_FAILURE() << "no stage " << stage;
+    return 0;
+}
+
+// Drawing no more of the guard than is read changes no bit of what is seen.
+TEST_F(GuardFrame, WhatIsLeftOutIsNotMissed) {
+    renderer_->setScene(shippedScene("default"));
+    const View view = sideView(false, {0, 0}, 91, 53);
+    const std::vector<Options> cases{
+        {{"ao", "vbao"}, {"quality", "high"}},
+        {{"ao", "gtao"}, {"quality", "high"}, {"bentNormals", "true"}},
+        {{"ao", "gtao"}, {"quality", "fast"}, {"denoiser", "edge-packed"}, {"passes", "2"}},
+        {{"ao", "vbao"}, {"quality", "medium"}, {"denoiser", "atrous"}, {"passes", "3"}},
+        {{"ao", "vbao"}, {"quality", "high"}, {"denoiser", "atrous"}, {"passes", "3"}, {"fxaa", "false"}},
+        {{"ao", "hbao"}, {"quality", "high"}, {"denoiser", "box"}, {"resolution", "half"}},
+        {{"ao", "cocos"}, {"quality", "medium"}, {"denoiser", "gaussian"}},
+        {{"ao", "cocos"}, {"quality", "article"}},
+    };
+    for (Options options : cases) {
+        std::string name;
+        for (const auto& [key, value] : options) name += key + "=" + value + " ";
+        options["guard"] = "50";  // 28 pixels
+        load("ao-deferred", options, noReach());
+        const std::vector<Image> all = kept(*renderer_, view);
+        EXPECT_EQ(drawnBeyond(*renderer_, "LightingStage"), kWholeGuard) << name;
+        load("ao-deferred", options);
+        const std::vector<Image> less = kept(*renderer_, view);
+        const bool fxaa = !options.contains("fxaa");
+        EXPECT_EQ(drawnBeyond(*renderer_, "LightingStage"), fxaa ? 13u : 1u) << name;
+        if (options["quality"] != "article") {
+            EXPECT_LE(drawnBeyond(*renderer_, "AoMain"), 28u) << name;
+            EXPECT_GT(drawnBeyond(*renderer_, "AoMain"), drawnBeyond(*renderer_, "LightingStage")) << name;
+        }
+        EXPECT_EQ(drawnBeyond(*renderer_, "GbufferStage"), kWholeGuard) << name;
+        for (std::size_t i = 0; i < all.size(); ++i) EXPECT_EQ(all[i], less[i]) << name << i;
+    }
+}
+
+// The part is really cut off: a stage that says too little finds the clear value beside the frame, and nowhere else.
+TEST_F(GuardBeam, WhatIsNotDrawnIsCleared) {
+    const Options options{{"ao", "vbao"},  {"quality", "high"}, {"guard", "25"},
+                          {"radius", "1"}, {"fxaa", "false"},   {"denoiser", "box"}};
+    load("ao-deferred", options);
+    const Image right = target(frame(), "cc_ssaoBlurMap");
+    load("ao-deferred", options,
+         {{"AoDenoise1.reach", "0"}, {"AoResolve.reach", "0"}, {"PostProcessStage.reach", "0"}});
+    EXPECT_EQ(drawnBeyond(*renderer_, "AoMain"), 0u);
+    const Image wrong = target(frame(), "cc_ssaoBlurMap");
+    std::size_t atBorder = 0;
+    for (std::uint32_t y = 0; y < 64; ++y) {
+        for (std::uint32_t x = 0; x < 64; ++x) {
+            const bool inside = x >= 2 && y >= 2 && x < 62 && y < 62;  // the box's reach
+            if (inside) ASSERT_EQ(right.at(x, y), wrong.at(x, y)) << x << ',' << y;
+            atBorder += !inside && right.at(x, y) != wrong.at(x, y) ? 1 : 0;
+        }
+    }
+    EXPECT_GT(atBorder, 20u);
+}
+
 TEST_F(GuardBeam, SizesChangeFromFrameToFrame) {
     loadGuarded(10, options_);
     for (const glm::uvec2 size : {glm::uvec2(64, 64), glm::uvec2(50, 33), glm::uvec2(33, 50)}) {

@@ -98,6 +98,56 @@ TEST(TruthPicture, FitAndNoiseCorrection) {
     EXPECT_EQ(noiseCorrected(0.02, 0.03), 0.0);
 }
 
+// The truth varies by 0.2 and is known to 0.12: of its variance of 0.04, 0.0144 is noise, and its reliability is 0.64.
+TEST(TruthPicture, NoiseOfTheTruthIsTakenOff) {
+    MapMetrics m;
+    m.rmse = 0.13;
+    m.white = 0.2;
+    m.fitRmse = 0.12;
+    m.correlation = 0.6;
+    m.truthVariance = 0.04;
+    m.skill = 1 - 0.13 * 0.13 / 0.04;
+    m.bias = 0.01;
+    takeNoiseOff(m, 0.12);
+    EXPECT_NEAR(m.rmse, 0.05, 1e-12);
+    EXPECT_NEAR(m.white, 0.16, 1e-12);
+    EXPECT_EQ(m.fitRmse, 0.0);
+    EXPECT_NEAR(m.ofWhite, 0.3125, 1e-12);
+    EXPECT_NEAR(m.truthVariance, 0.0256, 1e-12);
+    EXPECT_NEAR(m.skill, 1 - 0.0025 / 0.0256, 1e-12);
+    EXPECT_NEAR(m.correlation, 0.75, 1e-12);  // 0.6 / √0.64
+    EXPECT_EQ(m.bias, 0.01);
+    m.correlation = -0.9;
+    takeNoiseOff(m, 0.13);
+    EXPECT_EQ(m.correlation, -1.0) << "a sample may exceed what is possible";
+    // Nothing but noise: nothing to divide by.
+    m.correlation = 0.3;
+    m.skill = -2;
+    takeNoiseOff(m, 0.5);
+    EXPECT_EQ(m.correlation, 0.3);
+    EXPECT_EQ(m.skill, -2);
+}
+
+TEST(TruthPicture, CorrelationWithANoisyTruthIsThatWithTheTrueOne) {
+    // ±0.1 of noise on every value of the truth, once up and once down: independent of map and truth.
+    std::vector<float> map, truth, noisy;
+    for (int i = 0; i < 8; ++i) {
+        for (const float noise : {-0.1f, 0.1f}) {
+            map.push_back(0.1f * static_cast<float>((5 * i) % 8));
+            truth.push_back(0.1f * static_cast<float>(i));
+            noisy.push_back(truth.back() + noise);
+        }
+    }
+    MapMetrics measured = measureMap(map, noisy);
+    const MapMetrics wanted = measureMap(map, truth);
+    EXPECT_LT(std::abs(measured.correlation), std::abs(wanted.correlation) - 0.01);
+    takeNoiseOff(measured, 0.1);
+    EXPECT_NEAR(measured.correlation, wanted.correlation, 1e-6);
+    EXPECT_NEAR(measured.skill, wanted.skill, 1e-5);
+    EXPECT_NEAR(measured.rmse, wanted.rmse, 1e-6);
+    EXPECT_NEAR(measured.truthVariance, wanted.truthVariance, 1e-6);
+}
+
 // A wall of depth 2 whose right half stands at 4; then a floor that runs away; then the sky.
 TEST(TruthPicture, DepthEdges) {
     const glm::uvec2 size(20, 6);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -224,26 +225,41 @@ void AoBench::runCase(const AoScene& scene, const Truths& truths, const AoCase& 
     const std::size_t shown = std::size_t(&shownView(scene) - scene.views.data());
     if (isShown) addPicture(scene, truths, wanted, radius, measurements[shown].map);
     const bool isTimed = isShown && isTimed_;
-    if (isTimed) measurements[shown].row.cpuMs = measureCost(scene.views[shown]);
+    if (isTimed) {
+        const Cost cost = measureCost(wanted, truths.radii[radius], truths.size, scene.views[shown]);
+        measurements[shown].row.cpuMs = cost.all();
+        measurements[shown].row.guardMs = cost.guardMs;
+    }
     for (AoRow& row : measureRows(measurements)) results_.rows.push_back(std::move(row));
     did(fmt::format("{}: {}", scene.name, wanted.label()),
         megapixels(truths.size) * kMap * (double(scene.views.size()) + (isTimed ? settings_.repeats + 2 : 0)));
 }
 
-/// Least of the rounds; the yardstick is measured between them, and its least over the scene counts.
-double AoBench::measureCost(const AoView& view) {
+/// Least of the rounds; the yardstick is measured between them, and its least over the scene counts. A guard makes the
+/// G-buffer larger: by how much dearer, the same case without it shows.
+AoBench::Cost AoBench::measureCost(const AoCase& wanted, double radius, const glm::uvec2& size, const AoView& view) {
     yardstickMs_ = std::min(yardstickMs_, yardstick_->measure(view));
-    double least = 1e30;
-    for (std::uint32_t round = 0; round < settings_.repeats; ++round) {
-        least = std::min(least, renderer_.render(view).aoMs);
-    }
-    return least;
+    Cost cost{1e30, 0};
+    double geometry = 1e30;
+    const auto render = [&] {
+        const AoFrame frame = renderer_.render(view);
+        geometry = std::min(geometry, frame.geometryMs);
+        return frame.aoMs;
+    };
+    for (std::uint32_t round = 0; round < settings_.repeats; ++round) cost.passesMs = std::min(cost.passesMs, render());
+    if (wanted.guard <= 0) return cost;
+    const double guarded = std::exchange(geometry, 1e30);
+    renderer_.choose(withoutGuard(wanted), radius, size);
+    for (std::uint32_t round = 0; round <= settings_.repeats; ++round) render();
+    cost.guardMs = std::max(0.0, guarded - geometry);
+    return cost;
 }
 
 void AoBench::setShares(std::size_t firstRow) {
     for (std::size_t i = firstRow; i < results_.rows.size(); ++i) {
         AoRow& row = results_.rows[i];
-        if (row.technique != "white" && row.technique != "baked") row.cpuShare = row.cpuMs / yardstickMs_;
+        if (row.technique != "white" && row.technique != "baked")
+            row.cpuShare = row.cpuMs / yardstickMs_, row.guardShare = row.guardMs / yardstickMs_;
     }
     if (firstRow > 0) return;  // curves are those of the first scene
     for (AoCurveResult& curve : results_.curves) {
@@ -301,7 +317,8 @@ void AoBench::runCurves(const AoScene& scene, const Truths& truths) {
             point.label = c.label();
             point.x = curves_[i].name.starts_with("blur") ? c.denoiseTaps : c.taps;
             point.ofWhite = measureMap(map, truth.layers[middle()].openness, truth.isCounted).ofWhite;
-            point.cpuShare = isTimed_ ? measureCost(scene.views[shown]) : kUnknown;
+            point.cpuShare =
+                isTimed_ ? measureCost(c, truths.radii[middle()], truths.size, scene.views[shown]).all() : kUnknown;
             results_.curves[i].points.push_back(point);
         }
     }

@@ -39,7 +39,12 @@ private:
     void runCase(const AoScene& scene, const Truths& truths, const AoCase& wanted, std::size_t radius);
     void addPicture(const AoScene& scene, const Truths& truths, const AoCase& wanted, std::size_t radius,
                     const std::vector<float>& map);
-    double measureCost(const AoView& view);
+    struct Cost {
+        double passesMs = 0;  ///< The occlusion's passes.
+        double guardMs = 0;   ///< What the guard adds to the G-buffer.
+        double all() const { return passesMs + guardMs; }
+    };
+    Cost measureCost(const AoCase& wanted, double radius, const glm::uvec2& size, const AoView& view);
     void setShares(std::size_t firstRow);
     void runCurves(const AoScene& scene, const Truths& truths);
     void addLit(const AoScene& scene, const Scene& loaded);

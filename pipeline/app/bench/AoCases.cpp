@@ -50,6 +50,7 @@ void complete(const AssetRoots& roots, AoCase& c) {
     if (raw) c.scale = raw->scale;
     c.taps = countTaps(desc);
     c.denoiseTaps = countDenoiseTaps(desc);
+    c.guard = desc.guard;
 }
 
 }  // namespace
@@ -92,6 +93,13 @@ AoCase parseAoCase(const AssetRoots& roots, std::string_view text) {
     return c;
 }
 
+AoCase withoutGuard(AoCase c) {
+    std::erase_if(c.sets, [](const StageSet& set) { return set.path == "guard"; });
+    c.sets.push_back({"guard", "0"});
+    c.guard = 0;
+    return c;
+}
+
 std::vector<AoCase> listAoCases(const AssetRoots& roots, const AoCaseChoice& choice) {
     const PipelineDesc desc = loadPipeline(roots, {aoMapPipeline(roots), {}, {}});
     std::vector<std::string> known = choicesOf(desc, "ao");
@@ -117,6 +125,11 @@ std::vector<AoCase> listAoCases(const AssetRoots& roots, const AoCaseChoice& cho
     const bool isAll = variants.empty() && choice.techniques.empty() && choice.qualities.empty();
     if (isAll) {
         variants.push_back("vbao high thickness=0.25");  // what its help names for thin things
+        if (findOption(desc, "guard")) {
+            for (const char* technique : {"gtao", "vbao"})
+                for (const char* quality : {"high", "ultra"})
+                    variants.push_back(fmt::format("{} {} guard=0", technique, quality));
+        }
         variants.push_back("vbao high guard=10");
         if (findOption(desc, "backFaces")) variants.push_back("vbao ultra guard=25 backFaces=true");
     }

@@ -20,6 +20,7 @@ struct AoCase {
     double scale = 1;         ///< Of the raw map's sides: 0.5 = half resolution.
     double taps = 0;          ///< Samples per texel of the raw map; 0 = unknown.
     double denoiseTaps = 0;   ///< Of the blur per texel of the raw map.
+    double guard = 0;         ///< Percent of the frame's height.
     bool everyRadius = true;  ///< Otherwise the middle one only.
 
     std::string label() const;
@@ -37,6 +38,9 @@ std::string aoMapPipeline(const AssetRoots& roots);
 /// Techniques and presets are those of the pipeline's options; the preset "reference" only when asked for.
 /// Throws Error with near names.
 std::vector<AoCase> listAoCases(const AssetRoots& roots, const AoCaseChoice& choice);
+
+/// The same case without guard.
+AoCase withoutGuard(AoCase c);
 
 /// "TECHNIQUE QUALITY NAME=VALUE …"; a name with a dot is a field of a stage. Throws Error.
 AoCase parseAoCase(const AssetRoots& roots, std::string_view text);

@@ -47,7 +47,9 @@ void visitColumns(const AoRow& row, Visit visit) {
     visit("taps_per_pixel", row.tapsPerPixel);
     visit("denoise_taps", row.denoiseTaps);
     visit("cpu_ms", row.cpuMs);
+    visit("guard_ms", row.guardMs);
     visit("cpu_share", row.cpuShare);
+    visit("guard_share", row.guardShare);
 }
 
 template <class Visit>
@@ -77,6 +79,7 @@ void visitColumns(const AoMean& mean, Visit visit) {
     visit("taps_per_pixel", mean.tapsPerPixel);
     visit("denoise_taps", mean.denoiseTaps);
     visit("cpu_share", mean.cpuShare);
+    visit("guard_share", mean.guardShare);
 }
 
 }  // namespace crevice

@@ -26,12 +26,13 @@ std::string showTaps(double taps) { return taps > 0 ? fmt::format("{:g}", taps) 
 std::string groupTable(const std::vector<AoMean>& means) {
     TextTable table;
     table.add({"case", "fetches", "RMSE", "of white", "MAE", "bias", "abs. bias", "P95", "SSIM", "r", "skill", "noise",
-               "edge", "border", "contact", "CPU share"});
+               "edge", "border", "contact", "CPU share", "of it guard"});
     for (const AoMean& m : means) {
         const std::string label = m.onFront ? "**" + m.label + "**" : m.label;
         table.add({label, showTaps(m.tapsPerPixel), show(m.rmse), show(m.ofWhite), show(m.mae), show(m.bias),
                    show(m.absBias), show(m.p95), show(m.ssim), show(m.correlation), show(m.skill), show(m.noise, 4),
-                   show(m.edge), show(m.border), show(m.contact), show(m.cpuShare)});
+                   show(m.edge), show(m.border), show(m.contact), show(m.cpuShare),
+                   m.guardShare > 0 ? show(m.guardShare) : "–"});
     }
     return table.markdown();
 }

@@ -54,6 +54,7 @@ AoFrame AoRenderer::render(const AoView& view) {
     wanted.keep = keep_;
     const Image map = renderTimed(renderer_, wanted, [&](std::string_view stage, double ms) {
         if (isOcclusion(stage)) frame.aoMs += ms;
+        if (stage == "GbufferStage") frame.geometryMs += ms;
         if (stage == "AoMain" || stage == "AoArticle") frame.mainMs += ms;
     });
     frame.openness = firstChannel(map);

@@ -13,8 +13,9 @@ namespace crevice {
 /// 8-bit openness as lighting samples it, row by row from the top, and the cost of all passes that made it.
 struct AoFrame {
     std::vector<float> openness;
-    double aoMs = 0;    ///< Process CPU time of every stage but the G-buffer's and the shadow maps'.
-    double mainMs = 0;  ///< Of the technique's own pass alone.
+    double aoMs = 0;        ///< Process CPU time of every stage but the G-buffer's and the shadow maps'.
+    double mainMs = 0;      ///< Of the technique's own pass alone.
+    double geometryMs = 0;  ///< Of the G-buffer.
 };
 
 /// One scene, one case at a time.

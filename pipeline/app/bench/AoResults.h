@@ -27,8 +27,11 @@ struct AoRow {
     double truthNoise = 0;  ///< Standard error of a pixel of the truth.
     double excluded = 0;    ///< Share of the surface's pixels that show another surface to the rays.
     double taps = 0, tapsPerPixel = 0, denoiseTaps = 0;
-    double cpuMs = kUnknown;     ///< Of all occlusion passes, where it was measured.
-    double cpuShare = kUnknown;  ///< Of the yardstick's pass.
+    /// Of all occlusion passes and of what a guard adds to the G-buffer, where it was measured.
+    double cpuMs = kUnknown;
+    double guardMs = kUnknown;     ///< Of it, what the guard adds to the G-buffer.
+    double cpuShare = kUnknown;    ///< cpuMs over the yardstick's pass.
+    double guardShare = kUnknown;  ///< guardMs over it.
 
     std::string label() const {
         return technique + (quality.empty() ? "" : " " + quality) + (extras.empty() ? "" : " " + extras);

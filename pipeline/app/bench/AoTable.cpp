@@ -114,11 +114,14 @@ std::vector<AoMean> meanRows(const std::vector<AoRow>& rows, const AoGroup& grou
 
 void addCosts(std::vector<AoMean>& means, const std::vector<AoRow>& rows) {
     for (AoMean& mean : means) {
-        Mean share;
+        Mean share, guard;
         for (const AoRow& row : rows) {
-            if (row.label() == mean.label) share.add(row.cpuShare);
+            if (row.label() != mean.label) continue;
+            share.add(row.cpuShare);
+            guard.add(row.guardShare);
         }
         mean.cpuShare = share.value();
+        mean.guardShare = guard.value();
     }
 }
 

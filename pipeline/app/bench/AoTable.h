@@ -24,8 +24,8 @@ struct AoMean {
     double rmse = 0, ofWhite = 0, mae = 0, bias = 0, absBias = 0, p95 = 0, ssim = 0, correlation = 0, skill = 0;
     double noise = 0, edge = 0, border = 0, contact = 0, slope = 0, offset = 0, fitRmse = 0;
     double taps = 0, tapsPerPixel = 0, denoiseTaps = 0;
-    double cpuShare = kUnknown;  ///< Mean of the rows that have one.
-    bool onFront = false;        ///< No other case of the table is at most as wrong and at most as dear.
+    double cpuShare = kUnknown, guardShare = kUnknown;  ///< Means of the rows that have them.
+    bool onFront = false;  ///< No other case of the table is at most as wrong and at most as dear.
 };
 
 /// One mean per case that has as many rows as the white map: cases measured at fewer radii are left out, since means

@@ -9,21 +9,6 @@
 #include "core/Files.h"
 
 namespace crevice {
-namespace {
-
-/// Takes the noise of the truth out of whatever is a mean square: error, error of white, variance.
-void takeNoiseOff(MapMetrics& metrics, double noise) {
-    const double square = metrics.rmse * metrics.rmse;
-    const double variance = metrics.skill < 1 ? square / (1 - metrics.skill) - noise * noise : 0;
-    metrics.rmse = noiseCorrected(metrics.rmse, noise);
-    metrics.white = noiseCorrected(metrics.white, noise);
-    metrics.fitRmse = noiseCorrected(metrics.fitRmse, noise);
-    metrics.ofWhite = metrics.white > 0 ? metrics.rmse / metrics.white : 0;
-    if (variance > 0) metrics.skill = 1 - metrics.rmse * metrics.rmse / variance;
-}
-
-}  // namespace
-
 AmbientMap traceAoTruth(const Scene& scene, const Camera& camera, const glm::uvec2& size,
                         std::vector<AmbientTerm> terms, const AoTruthSettings& settings) {
     AmbientSettings ambient;

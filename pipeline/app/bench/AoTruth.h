@@ -30,8 +30,8 @@ struct AoMeasurement {
 AmbientMap traceAoTruth(const Scene& scene, const Camera& camera, const glm::uvec2& size,
                         std::vector<AmbientTerm> terms, const AoTruthSettings& settings);
 
-/// Measures on all processors; rows in the order of the measurements. RMSE, that of white and skill are without the
-/// truth's own noise.
+/// Measures on all processors; rows in the order of the measurements. RMSE, that of white, skill and
+/// correlation are without the truth's own noise.
 std::vector<AoRow> measureRows(std::span<const AoMeasurement> measurements);
 
 /// What the measurement reads besides regions.
