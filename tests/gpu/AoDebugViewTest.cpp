@@ -118,7 +118,7 @@ double onPlane(const Image& depth, int x, int y, int dx, int dy, const Camera& c
 
 TEST_F(AoDebugView, EdgesAreWhatTheDenoiserKeeps) {
     for (const bool orthographic : {false, true}) {
-        const Image edges = show("edges", {}, {}, orthographic);
+        const Image edges = show("edges", {{"guard", "0"}}, {}, orthographic);  // "beyond the frame" is its edge
         const View view = viewFrom(orthographic);
         const Image depth = target(view, "viewDepth");
         int green = 0, red = 0, white = 0;
