@@ -27,11 +27,11 @@ public:
         desc_.output = output;
     }
     Chain& stage(const std::string& name, const std::string& writes, const std::vector<std::string>& reads,
-                 std::optional<std::uint32_t> reach, WriteKind kind = WriteKind::Color) {
+                 std::optional<std::uint32_t> reach) {
         StageUse use;
         use.stage = use.flow = name;
-        use.writes.push_back({.target = writes, .kind = kind});
-        for (const std::string& read : reads) use.reads.push_back({.target = read});
+        use.writes.push_back({writes, WriteKind::Color, false, 0, {}});
+        for (const std::string& read : reads) use.reads.push_back({read, false, 0, read, {}});
         use.reach = reach;
         uses_.push_back(std::move(use));
         return *this;
