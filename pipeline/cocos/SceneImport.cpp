@@ -295,7 +295,7 @@ private:
     void noteDarkness(const Value& ambient) {
         const Ambient& around = *out_.scene.ambient;
         const bool dark = around.sky == glm::vec3(0) && around.ground == glm::vec3(0) && !litByEnvironment(out_.scene);
-        if (!out_.scene.lights.empty()) return;
+        if (!out_.scene.lights.empty() || problems_.hasErrors()) return;
         if (dark)
             problems_.warning(ambient.where(),
                               "nothing lights this scene: it has no lights, and its ambient light is 0",

@@ -21,6 +21,9 @@ render $scenes/spot.scene.json -o $out/spot.png --size 480x270
 render $scenes/fog.scene.json -o $out/fog.png --size 480x270
 render $scenes/glass.scene.json -o $out/glass.png --size 480x270
 render $scenes/environment.scene.json -o $out/environment.png --size 480x270
+article=tests/cocos/article-v33
+render default -o $out/cocos-article.png --size 480x270 -p $article/project/assets/pipeline/ssao-deferred-pipeline.rpp --engine $article/engine \
+  --dump cc_ssaoMap=$out/cocos-article-ao.png
 ao=(default --size 320x180 --option ao=gtao --option radius=0.6)
 render "${ao[@]}" -p ao-deferred -o $out/light-ambient.png
 render "${ao[@]}" -p ao-deferred -o $out/light-direct.png --option directStrength=1
