@@ -85,7 +85,7 @@ TEST_F(UsageTest, ScenesAreChecked) {
     expectRefused("render -o a.png", "no scene given", "default");
     expectRefused("render defalt -o a.png", "no scene named 'defalt'", "did you mean 'default'?");
     expectRefused("render missing.gltf -o a.png", "scene 'missing.gltf' does not exist", "check the path");
-    expectRefused("render notes.txt -o a.png", "'notes.txt' is not a scene", ".gltf, .glb or .scene.json");
+    expectRefused("render notes.txt -o a.png", "'notes.txt' is not a scene", ".gltf, .glb, .scene.json or .scene");
 }
 
 TEST_F(UsageTest, OutputsAreChecked) {
