@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "cocos/PrefabOverrides.h"
 #include "cocos/SceneComponents.h"
 #include "cocos/SceneGlobals.h"
 #include "cocos/SceneModels.h"
@@ -109,11 +110,13 @@ private:
                                 "split the scene");
             return;
         }
-        const FieldReader fields(node, problems_);
+        Value changed;
+        const Value& here = withChanges(graph, node, "_prefab", changed);
+        const FieldReader fields(here, problems_);
         if (!fields.boolean("_active", true)) return;
         if (const Value* instance = prefabInstance(graph, node))
             return placePrefab(graph, node, *instance, parent, depth, prefabs);
-        const glm::mat4 world = parent * readTransform(node, problems_);
+        const glm::mat4 world = parent * readTransform(here, problems_);
         path_.push_back({&node, world});
         for (const Value* component : graph.resolveList(fields.list("_components"), "'_components'", problems_))
             visit(graph, *component, world, fields.text("_name", "node"));
@@ -122,7 +125,18 @@ private:
         path_.pop_back();
     }
 
-    void visit(const ObjectGraph& graph, const Value& component, const glm::mat4& world, const std::string& name) {
+    /// A node or component, or a copy of it with what an instance of its prefab changes.
+    const Value& withChanges(const ObjectGraph& graph, const Value& object, const char* key, Value& copy) {
+        const std::string id = changes_ ? prefabIdOf(graph, object, key, problems_) : std::string();
+        if (!changes_ || !changes_->has(id)) return object;
+        copy = object;
+        changes_->apply(id, copy);
+        return copy;
+    }
+
+    void visit(const ObjectGraph& graph, const Value& written, const glm::mat4& world, const std::string& name) {
+        Value changed;
+        const Value& component = withChanges(graph, written, "__prefab", changed);
         const FieldReader fields(component, problems_);
         if (!fields.boolean("_enabled", true)) return;
         const std::string type = typeOf(component);
@@ -211,53 +225,38 @@ private:
         const AssetRef ref = FieldReader(info, problems_).asset("asset");
         const MetaAsset* asset = ref ? project_.find(ref, "a prefab", problems_) : nullptr;
         if (!asset) return;
-        Value placed = Value::makeObject(node.where());
-        applyOverrides(graph, info, placed);
-        if (!FieldReader(placed, problems_).boolean("_active", true)) return;
+        const Value* instance = graph.resolve(*info.find("instance"), "'instance'", problems_);
+        if (!instance) return;
+        PrefabOverrides changes(graph, *instance, problems_);
+        const std::string rootId = FieldReader(info, problems_).text("fileId");
         if (SceneModels::isModel(*asset)) {
-            if (lights_) models_.placeModel(*asset, parent * readTransform(placed, problems_), ref);
-            return;
-        }
-        if (asset->path.extension() != ".prefab" || prefabs >= kMaxPrefabs) {
+            Value placed = Value::makeObject(node.where());
+            changes.apply(rootId, placed);
+            const bool active = FieldReader(placed, problems_).boolean("_active", true);
+            if (lights_ && active) models_.placeModel(*asset, parent * readTransform(placed, problems_), ref);
+        } else if (asset->path.extension() != ".prefab" || prefabs >= kMaxPrefabs) {
             if (lights_) ++skipped_[prefabs >= kMaxPrefabs ? "prefabs inside of prefabs" : "models that are not glTF"];
             return;
+        } else {
+            walkPrefab(*asset, rootId, changes, parent, depth);
         }
+        if (lights_ && changes.left() > 0) skipped_["changes inside of prefabs"] += changes.left();
+    }
+
+    void walkPrefab(const MetaAsset& asset, const std::string& rootId, PrefabOverrides& changes,
+                    const glm::mat4& parent, int depth) {
         try {
-            auto& prefab = prefabs_[asset->path];
-            if (!prefab) prefab = std::make_unique<ObjectGraph>(ObjectGraph::read(asset->path, kSceneLimits));
+            auto& prefab = prefabs_[asset.path];
+            if (!prefab) prefab = std::make_unique<ObjectGraph>(ObjectGraph::read(asset.path, kSceneLimits));
             Value root = *rootNode(*prefab);
-            for (const Member& member : placed.members()) root.set(member.key, member.value);
+            changes.apply(rootId, root);
             root.erase("_prefab");
-            walk(*prefab, root, parent, depth + 1, prefabs + 1);
+            changes_ = &changes;
+            walk(*prefab, root, parent, depth + 1, kMaxPrefabs);
         } catch (const Error& error) {
             problems_.add(error);
         }
-    }
-
-    /// Overrides of the root's place; those of anything below are noted.
-    void applyOverrides(const ObjectGraph& graph, const Value& info, Value& placed) {
-        const Value* instance = graph.resolve(*info.find("instance"), "'instance'", problems_);
-        if (!instance) return;
-        const std::string rootId = FieldReader(info, problems_).text("fileId");
-        const Value* list = FieldReader(*instance, problems_).list("propertyOverrides");
-        for (const Value* change : graph.resolveList(list, "'propertyOverrides'", problems_)) {
-            const FieldReader fields(*change, problems_);
-            const Value* path = fields.list("propertyPath");
-            const Value* target = fields.find("targetInfo");
-            const Value* ids = target ? graph.resolve(*target, "'targetInfo'", problems_) : nullptr;
-            const Value* id = ids ? ids->find("localID") : nullptr;
-            const bool root = id && id->isArray() && id->items().size() == 1 && id->items()[0].isString() &&
-                              id->items()[0].string() == rootId;
-            const bool plain = path && path->items().size() == 1 && path->items()[0].isString();
-            const std::string key = plain ? path->items()[0].string() : "";
-            const bool place = key == "_lpos" || key == "_lrot" || key == "_lscale" || key == "_active";
-            const Value* value = change->find("value");
-            if (root && place && value) {
-                placed.set(key, *value);
-            } else if (lights_ && !(root && (key == "_name" || key == "_euler"))) {
-                ++skipped_["changes inside of prefabs"];
-            }
-        }
+        changes_ = nullptr;
     }
 
     void takeCameras() {
@@ -358,8 +357,9 @@ private:
     std::vector<ImportedCamera> cameras_;
     std::map<std::string, std::size_t> skipped_;
     std::map<std::filesystem::path, std::unique_ptr<ObjectGraph>> prefabs_;
-    std::vector<Place> path_;        ///< From the root to the node that is visited.
-    std::map<int, int> unshadowed_;  ///< Material → the same without CC_RECEIVE_SHADOW.
+    PrefabOverrides* changes_ = nullptr;  ///< Of the prefab that is walked.
+    std::vector<Place> path_;             ///< From the root to the node that is visited.
+    std::map<int, int> unshadowed_;       ///< Material → the same without CC_RECEIVE_SHADOW.
     std::size_t visited_ = 0;
     bool hdr_ = true, lights_ = false, showsSky_ = true, cascades_ = false;
     double exposure_ = 1;

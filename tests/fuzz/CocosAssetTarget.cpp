@@ -72,7 +72,8 @@ struct AssetFolder {
     "userData": { "isRGBE": true } } } })");
         write("assets/p.prefab", R"([ { "__type__": "cc.Prefab", "data": { "__id__": 1 } },
   { "__type__": "cc.Node", "_components": [ { "__type__": "cc.MeshRenderer",
-    "_mesh": { "__uuid__": "20ff50d1-0000-4000-8000-000000f1736b@a" } } ] } ])");
+    "_mesh": { "__uuid__": "20ff50d1-0000-4000-8000-000000f1736b@a" }, "_materials": [ null ],
+    "__prefab": { "fileId": "look" } } ], "_children": [ { "__type__": "cc.Node", "_prefab": { "fileId": "inner" } } ] } ])");
         write("assets/p.prefab.meta", R"({ "importer": "prefab", "uuid": "40ff50d1-0000-4000-8000-000000f1736b" })");
     }
     fs::path write(const std::string& name, std::string_view text) const {

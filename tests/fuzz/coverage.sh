@@ -13,7 +13,7 @@ declare -A files=(
   [gltf]="scene/Gltf.*"
   [image]="core/(Hdr|Exr|Picture)"
   [cocosEffect]="cocos/(ChunkLibrary|CocosEffects|Conditions|EffectReflection|EngineMacros|Flattener|GlslStatements|GlslTypes|Interface.*|Macro.*|Numbering|PassReflection|Pragmas|PropertyReflection|Reflection|SourceText|Stage.*|TextConstants)"
-  [cocosAsset]="cocos/(Mtl.*|Meta.*|ObjectGraph|Rpp.*|Import.*|Scene.*|TypedValue|Uuid|Version|Project|Shapes|StandardMaterial|TextureSampler)")
+  [cocosAsset]="cocos/(Mtl.*|Meta.*|ObjectGraph|Rpp.*|Import.*|Scene.*|TypedValue|Uuid|Version|Project|Shapes|StandardMaterial|TextureSampler|PrefabOverrides)")
 work=$(mktemp -d); trap 'rm -rf "$work"' EXIT
 for target in ${TARGETS:-pipeline effect material scene gltf image cocosEffect cocosAsset}; do
   program=$build/crevice_fuzz_$target

@@ -201,6 +201,46 @@ TEST(CocosScene, APrefabFileIsReadOneLevelDeep) {
     EXPECT_EQ(glm::vec3(out.scene.instances[0].world[3]), glm::vec3(4, 0, 0));
 }
 
+TEST(CocosScene, InstancesOfAPrefabChangeWhatIsInIt) {
+    SceneFolder folder;
+    const std::string uuid = "30ff50d1-0000-4000-8000-000000f1736b";
+    folder.write("project/p.prefab.meta", SceneFolder::meta(uuid, "prefab"));
+    folder.write("project/p.prefab", R"([ { "__type__": "cc.Prefab", "data": { "__id__": 1 } },
+      { "__type__": "cc.Node", "_name": "root", "_children": [ { "__id__": 2 }, { "__id__": 5 } ],
+        "_prefab": { "__type__": "cc.PrefabInfo", "fileId": "root" } },
+      { "__type__": "cc.Node", "_name": "in", "_components": [ { "__id__": 3 } ], "_prefab": { "__id__": 4 } },
+      { "__type__": "cc.MeshRenderer", "_mesh": { "__uuid__": ")" +
+                                         kSphere + R"(" }, "_materials": [ null ],
+        "__prefab": { "__type__": "cc.CompPrefabInfo", "fileId": "look" } },
+      { "__type__": "cc.PrefabInfo", "fileId": "inner" },
+      { "__type__": "cc.Node", "_name": "other", "_prefab": { "__type__": "cc.PrefabInfo", "fileId": "gone" }, "_components": [ )" +
+                                         renderer(kSphere, "[]") + "] } ]");
+    const auto change = [](const char* id, const std::string& path, const std::string& value) {
+        return R"({ "targetInfo": { "localID": [ ")" + std::string(id) + R"(" ] }, "propertyPath": [ )" + path +
+               R"( ], "value": )" + value + " }";
+    };
+    const auto instance = [&](const std::string& changes) {
+        return R"({ "__type__": "cc.Node", "_prefab": { "__type__": "cc.PrefabInfo", "fileId": "root", "asset": { "__uuid__": ")" +
+               uuid + R"(" }, "instance": { "__type__": "cc.PrefabInstance", "propertyOverrides": [ )" + changes +
+               " ] } } }";
+    };
+    const ImportedScene out = folder.load(
+        R"([ { "__type__": "cc.SceneAsset", "scene": { "__type__": "cc.Scene", "_children": [ )" +
+        instance(change("inner", R"("_lpos")", R"({ "__type__": "cc.Vec3", "x": 0, "y": 3, "z": 0 })") + "," +
+                 change("look", R"("_materials", "0")", R"({ "__uuid__": ")" + std::string(kPaint) + "\" }") + "," +
+                 change("gone", R"("_active")", "false")) +
+        "," + instance(change("root", R"("_lpos", "x")", "1") + "," + change("nobody", R"("_active")", "false")) +
+        "] } } ]");
+    ASSERT_EQ(out.scene.instances.size(), 3u) << folder.notes;
+    EXPECT_EQ(glm::vec3(out.scene.instances[0].world[3]), glm::vec3(0, 3, 0));
+    EXPECT_EQ(out.scene.materials.at(std::size_t(out.scene.instances[0].material)).name, "paint");
+    // The second instance has the prefab as it is.
+    EXPECT_EQ(glm::vec3(out.scene.instances[1].world[3]), glm::vec3(0, 0, 0));
+    EXPECT_NE(out.scene.materials.at(std::size_t(out.scene.instances[1].material)).name, "paint");
+    EXPECT_EQ(out.scene.instances[2].name, "other");
+    EXPECT_TRUE(contains(folder.notes, "left out: changes inside of prefabs, 2 times")) << folder.notes;
+}
+
 TEST(CocosScene, OtherComponentsAreOneNoteAKind) {
     SceneFolder folder;
     folder.load(
