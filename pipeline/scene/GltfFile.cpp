@@ -153,19 +153,13 @@ void File::note(const std::string& message) const { options.log.note(fmt::format
 
 void File::spend(std::size_t numbers) const {
     constexpr std::size_t kFree = 10'000'000, kPerByte = 4;
-    const std::size_t most = kFree + kPerByte * bytesHeld();
+    const std::size_t most = kFree + kPerByte * bytesHeld;
     if (numbers > most - std::min(spent, most))
         throw Error(
             SourceLoc{name},
             fmt::format("its accessors name the same bytes so often that they stand for more than {} numbers", most),
             options.strict ? "leave --strict out: it looks at all of them" : "export the file again");
     spent += numbers;
-}
-
-std::size_t File::bytesHeld() const {
-    std::size_t bytes = content.size();
-    for (const std::vector<std::byte>& part : storage) bytes += part.size();
-    return bytes;
 }
 
 void File::tell(std::string_view what, double share) const {
@@ -186,6 +180,8 @@ File open(const fs::path& path, const LoadOptions& options) {
     resources.readBuffers();
     resources.readBufferViews();
     resources.readImages();
+    file.bytesHeld = file.content.size();
+    for (const std::vector<std::byte>& part : file.storage) file.bytesHeld += part.size();
     file.tell("checking", 0);
     for (std::size_t i = 0; i < file.model.accessors.size(); ++i) checkAccessor(file, i);
     checkRules(file);

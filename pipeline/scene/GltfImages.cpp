@@ -134,7 +134,7 @@ int Images::samplerLike(int sampler) {
 // Pictures that overlap in the file's bytes would be decoded far more often than it is long.
 void Images::checkTotal() const {
     constexpr std::size_t kFree = std::size_t(1) << 20;
-    const std::size_t most = kFree + 2 * file_.bytesHeld();
+    const std::size_t most = kFree + 2 * file_.bytesHeld;
     std::size_t total = 0;
     for (const auto& [bytes, image] : sources_) {
         total += bytes.second;

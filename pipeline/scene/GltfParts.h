@@ -46,6 +46,7 @@ struct File {
     Model model{};
     mutable std::set<std::string> faults{};  ///< Formal faults told so far: each is told once.
     mutable IncreasingRuns increasing{};
+    std::size_t bytesHeld = 0;      ///< The file itself, and what it names.
     mutable std::size_t spent = 0;  ///< By spend().
 
     /// The place of `list[index]`, as exact as the format allows.
@@ -65,8 +66,6 @@ struct File {
     /// Counts numbers that are looked at. Throws Error when they are many times more than the file has bytes: accessors
     /// may share bytes, so that a small file can name any number of them.
     void spend(std::size_t numbers) const;
-    /// The file itself, and what it names.
-    std::size_t bytesHeld() const;
     /// `list[index]` in the JSON; must exist.
     const Value& item(std::string_view list, std::size_t index) const;
 };

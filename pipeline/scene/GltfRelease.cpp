@@ -18,7 +18,7 @@ std::uintptr_t blockOf(const std::byte* at) { return reinterpret_cast<std::uintp
 
 }  // namespace
 
-Release::Release(File& file) : file_(file), active_(file.bytesHeld() >= kLeastBytes) {}
+Release::Release(File& file) : file_(file), active_(file.bytesHeld >= kLeastBytes) {}
 
 void Release::expect(const std::map<int, std::size_t>& times) {
     if (active_) pin();
