@@ -61,9 +61,12 @@ public:
         RppPipeline pipeline = readRpp(request_.rpp, problems_);
         version_ = chooseVersion(request_.version, project_.roots(), pipeline);
         checkClass(pipeline);
-        ImportTargets targets(version_.isV33());
+        const bool forwardOnly =
+            hasStage(pipeline, {"ForwardStage"}) &&
+            !hasStage(pipeline, {"GbufferStage", "LightingStage", "PostProcessStage", "PostprocessStage"});
+        ImportTargets targets(version_.isV33(), !forwardOnly);
         targets.addOf(pipeline, project_, problems_);
-        StageImporter stages(request_, version_, project_, targets, isForward(pipeline), problems_);
+        StageImporter stages(request_, version_, project_, targets, hasStage(pipeline, {"ForwardStage"}), problems_);
         Value flows = Value::makeArray();
         for (const RppFlow& flow : pipeline.flows) addFlow(flow, stages, flows);
         if (flows.items().empty() && !problems_.hasErrors())
@@ -73,10 +76,10 @@ public:
     }
 
 private:
-    static bool isForward(const RppPipeline& pipeline) {
+    static bool hasStage(const RppPipeline& pipeline, std::initializer_list<const char*> types) {
         for (const RppFlow& flow : pipeline.flows)
             for (const RppStage& stage : flow.stages)
-                if (stage.type == "ForwardStage") return true;
+                if (isOneOf(stage.type, types)) return true;
         return false;
     }
 

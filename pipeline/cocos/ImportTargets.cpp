@@ -36,7 +36,15 @@ std::string formatName(std::int64_t gfxFormat) {
     return {};
 }
 
-ImportTargets::ImportTargets(bool v33) : litName_(v33 ? "cc_lighting_resultMap" : "lightingResult") {
+ImportTargets::ImportTargets(bool v33, bool deferred) : litName_(v33 ? "cc_lighting_resultMap" : "lightingResult") {
+    if (deferred) addGbuffer(v33);
+    add("depth", "D32F", "");
+    list_.find("depth")->set("clear", Value::makeNumber(1));
+    if (deferred) add(litName_, "RGBA16F", "the lit picture");
+    add("finalColor", "RGBA8", "the picture");
+}
+
+void ImportTargets::addGbuffer(bool v33) {
     if (v33) {
         add("cc_gbuffer_albedoMap", "RGBA16F", "base colour; its clear value is the background");
         add("cc_gbuffer_positionMap", "RGBA16F", "world position, roughness");
@@ -47,10 +55,6 @@ ImportTargets::ImportTargets(bool v33) : litName_(v33 ? "cc_lighting_resultMap" 
         add("gbufferNormal", "RGBA16F", "octahedral world normal, roughness, metallic");
         add("gbufferEmissive", "RGBA16F", "emissive, occlusion of the material");
     }
-    add("depth", "D32F", "");
-    list_.find("depth")->set("clear", Value::makeNumber(1));
-    add(litName_, "RGBA16F", "the lit picture");
-    add("finalColor", "RGBA8", "the picture");
 }
 
 void ImportTargets::add(const std::string& name, const std::string& format, const std::string& help) {

@@ -12,8 +12,9 @@ namespace crevice::cocos {
 /// "targets" of a document, in order.
 class ImportTargets {
 public:
-    /// The G-buffer, lit picture, depth and final colour of a profile, as its stages expect them.
-    explicit ImportTargets(bool v33);
+    /// Depth and final colour, and of a deferred pipeline the G-buffer and the lit picture, as a profile's stages
+    /// expect them.
+    ImportTargets(bool v33, bool deferred);
 
     const std::string& litName() const { return litName_; }
     bool has(const std::string& name) const { return list_.find(name) != nullptr; }
@@ -28,6 +29,7 @@ public:
     Value take() { return std::move(list_); }
 
 private:
+    void addGbuffer(bool v33);
     void addSized(const std::string& name, const std::string& format, double width, double height,
                   const std::string& help);
 

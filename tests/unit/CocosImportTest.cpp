@@ -254,6 +254,9 @@ TEST(CocosImport, ForwardPipelinesDrawTwoQueues) {
     EXPECT_EQ(stagesOf(desc), "ShadowFlow: SpotShadowStage ShadowStage; ForwardFlow: ForwardStage TransparentStage; ");
     EXPECT_EQ(stage(desc, "SpotShadowStage").params.find("light")->string(), "spot");
     EXPECT_TRUE(desc.findTarget("cc_spotShadowMap"));
+    EXPECT_TRUE(desc.findTarget("depth"));
+    for (const char* deferred : {"gbufferAlbedo", "gbufferNormal", "gbufferEmissive", "lightingResult"})
+        EXPECT_FALSE(desc.findTarget(deferred)) << deferred;  // nobody would read or write them
     EXPECT_EQ(stage(desc, "ForwardStage").writes, std::vector<std::string>{"finalColor"});
     EXPECT_EQ(stage(desc, "ForwardStage").queues.size(), 1u);
     EXPECT_EQ(stage(desc, "TransparentStage").queues.at(0).sort, QueueSort::BackToFront);
