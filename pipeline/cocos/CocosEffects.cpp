@@ -98,8 +98,8 @@ std::shared_ptr<CocosEffects::State::Kept> CocosEffects::State::keep(const Effec
     auto stage = std::make_shared<Kept>();
     try {
         const ProgramReference reference = parseProgram(part.reference);
-        stage->text =
-            analyzeStage(part.stage, flattenStage(effect, reference.program, part.where, chunks, {}, own), own);
+        stage->text = analyzeStage(part.stage, flattenStage(effect, reference.program, part.where, chunks, {}, own),
+                                   reference.entry, own);
         addEntry(stage->text, reference, part.where, own);
     } catch (const Error& error) {
         own.add(error);

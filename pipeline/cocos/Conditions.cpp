@@ -9,7 +9,6 @@ namespace crevice::cocos {
 namespace {
 
 constexpr int kMaxDepth = 200;
-constexpr int kEquality = 6, kOrder = 7;  ///< Precedences of comparisons.
 constexpr std::string_view kOperators[] = {"||", "&&", "==", "!=", "<=", ">=", "<<", ">>", "<", ">", "+", "-",
                                            "*",  "/",  "%",  "&",  "|",  "^",  "!",  "~",  "(", ")", ","};
 
@@ -19,8 +18,8 @@ int precedenceOf(std::string_view op) {
     if (op == "|") return 3;
     if (op == "^") return 4;
     if (op == "&") return 5;
-    if (op == "==" || op == "!=") return kEquality;
-    if (op == "<" || op == ">" || op == "<=" || op == ">=") return kOrder;
+    if (op == "==" || op == "!=") return 6;
+    if (op == "<" || op == ">" || op == "<=" || op == ">=") return 7;
     if (op == "<<" || op == ">>") return 8;
     if (op == "+" || op == "-") return 9;
     if (op == "*" || op == "/" || op == "%") return 10;
@@ -51,10 +50,6 @@ std::optional<long long> calculate(std::string_view op, long long a, long long b
     return op == "/" ? a / b : a % b;
 }
 
-void append(std::vector<std::string>& list, const std::vector<std::string>& more) {
-    list.insert(list.end(), more.begin(), more.end());
-}
-
 Condition constant(long long value) {
     Condition result;
     result.value = value;
@@ -70,7 +65,6 @@ public:
         Condition result = readBinary(1);
         if (failed_ || !word_.empty()) result = {};
         result.tooDeep = tooDeep_;
-        if (!failed_) result.compared = std::move(compared_);
         return result;
     }
 
@@ -95,13 +89,11 @@ private:
 
     Condition readBinary(int level) {
         if (++depth_ > kMaxDepth) failed_ = tooDeep_ = true;
-        const std::string_view before = word_;
         Condition left = failed_ ? Condition{} : readUnary();
         while (!failed_) {
             const std::string_view op = word_;
             const int precedence = precedenceOf(op);
             if (precedence < level || precedence == 0) break;
-            if (precedence == kEquality || precedence == kOrder) noteComparison(before, op);
             advance();
             left = combine(op, left, readBinary(precedence + 1));
         }
@@ -109,43 +101,15 @@ private:
         return left;
     }
 
-    /// A name alone on the left of an operator, which is the present word, or on its right.
-    void noteComparison(std::string_view left, std::string_view op) {
-        const auto gap = [](const char* from, const char* to) {
-            return trimBlank(std::string_view(from, static_cast<std::size_t>(to - from))).empty();
-        };
-        const std::string_view right = leadingName(trimBlank(text_));
-        for (const std::string_view name : {left, right}) {
-            if (leadingName(name).empty() || name == "defined" || name == "__VERSION__") continue;
-            const bool alone = name.data() == right.data() || gap(name.data() + name.size(), op.data());
-            if (alone && lookup_(name, true).outside) compared_.emplace_back(name);
-        }
-    }
-
     static Condition combine(std::string_view op, const Condition& a, const Condition& b) {
-        if (op == "&&" || op == "||") return combineLogic(op == "&&", a, b);
         Condition result;
         if (a.value && b.value) {
             result.value = calculate(op, *a.value, *b.value);
             return result;
         }
-        append(result.needs, a.needs);
-        append(result.needs, b.needs);
-        if (result.needs.size() == 1 && !result.needs[0].starts_with('!')) result.negated = {"!" + result.needs[0]};
-        return result;
-    }
-
-    static Condition combineLogic(bool both, const Condition& a, const Condition& b) {
-        for (const auto* pair : {&a, &b}) {
-            if (!pair->value) continue;
-            const bool holds = *pair->value != 0;
-            if (holds != both) return constant(holds ? 1 : 0);
-            return pair == &a ? b : a;
-        }
-        // De Morgan: the opposite of `!a || !b` is simple, and so is that of `a || b`.
-        Condition result;
-        append(both ? result.needs : result.negated, both ? a.needs : a.negated);
-        append(both ? result.needs : result.negated, both ? b.needs : b.negated);
+        if (op != "&&" && op != "||") return result;
+        for (const auto* one : {&a, &b})
+            if (one->value && (*one->value != 0) == (op == "||")) return constant(op == "||" ? 1 : 0);
         return result;
     }
 
@@ -156,7 +120,7 @@ private:
             advance();
             Condition operand = failed_ ? Condition{} : readUnary();
             --depth_;
-            if (op == "!") return negate(operand);
+            if (op == "!" && operand.value) operand.value = *operand.value == 0 ? 1 : 0;
             if (operand.value && op == "-") operand.value = calculate("-", 0, *operand.value);
             if (operand.value && op == "~") operand.value = ~*operand.value;
             return operand;
@@ -179,11 +143,7 @@ private:
         if (bracket) advance();
         Condition result;
         if (leadingName(word_).empty()) failed_ = true;
-        const ConditionName name = failed_ ? ConditionName{} : lookup_(word_, false);
-        if (name.outside && !failed_) {
-            result.needs = {std::string(word_)};
-            result.negated = {"!" + std::string(word_)};
-        }
+        if (!failed_) lookup_(word_, false);
         if (!failed_) advance();
         if (bracket && word_ != ")") failed_ = true;
         if (bracket && !failed_) advance();
@@ -198,10 +158,6 @@ private:
         const ConditionName name = lookup_(word, true);
         Condition result;
         result.value = name.value;
-        if (name.value) return result;
-        result.needs = name.alias;
-        if (name.alias.empty() && name.outside) result.needs = {std::string(word)};
-        if (result.needs.size() == 1) result.negated = {"!" + result.needs[0]};
         return result;
     }
 
@@ -235,7 +191,6 @@ private:
     const NameLookup& lookup_;
     int depth_ = 0;
     bool failed_ = false, tooDeep_ = false;
-    std::vector<std::string> compared_;
 };
 
 }  // namespace
@@ -244,13 +199,35 @@ Condition readCondition(std::string_view expression, const NameLookup& lookup) {
     return Reader(expression, lookup).run();
 }
 
-Condition negate(const Condition& condition) {
-    Condition result;
-    if (condition.value) result.value = *condition.value == 0 ? 1 : 0;
-    result.needs = condition.negated;
-    // What negates back to one name is that name.
-    if (condition.needs.size() == 1) result.negated = condition.needs;
-    return result;
+KeptNames keepNames(std::string_view expression, const NameLookup& lookup) {
+    KeptNames kept;
+    std::string last;  // The name that a comparison would make a number; empty = it stands for something else.
+    bool either = false;
+    for (expression = trimBlank(expression); !expression.empty(); expression = trimBlank(expression)) {
+        const std::string_view word = expression.substr(0, expression.find_first_of(" \t"));
+        expression.remove_prefix(word.size());
+        if (word == "||") either = true;
+        if (!last.empty() && word.find_first_not_of("<=>") == std::string_view::npos) kept.compared.push_back(last);
+        std::size_t at = 0;
+        while (at < word.size() && !isNameStart(word[at])) ++at;
+        std::string_view name = leadingName(word.substr(at));
+        const bool defined = name == "defined";
+        if (defined) name = leadingName(word.substr(std::min(word.find('(', at), word.size() - 1) + 1));
+        if (name.empty() || name == "__VERSION__") continue;
+        const ConditionName meaning = lookup(name, !defined);
+        last = meaning.outside ? std::string(name) : std::string();
+        const std::string sign = word.starts_with('!') ? "!" : "";
+        if (meaning.outside) kept.needs.push_back(sign + std::string(name));
+        for (const std::string& alias : meaning.alias) kept.needs.push_back(sign + alias);
+    }
+    if (either) kept.needs.clear();
+    return kept;
+}
+
+std::vector<std::string> turnRound(const std::vector<std::string>& needs) {
+    std::vector<std::string> turned;
+    for (const std::string& need : needs) turned.push_back(need.starts_with('!') ? need.substr(1) : "!" + need);
+    return turned;
 }
 
 std::optional<bool> decideByVersion(std::string_view expression) {

@@ -7,7 +7,9 @@
 #include <optional>
 #include <unordered_map>
 
-#include "cocos/Choices.h"
+#include "cocos/IncludedTexts.h"
+#include "cocos/MacroCall.h"
+#include "cocos/MacroTable.h"
 #include "cocos/Pragmas.h"
 
 namespace crevice::cocos {
@@ -58,7 +60,6 @@ private:
                 push(line.text, lines.origin(at));
                 return at + 1;
             }
-            if (const std::size_t next = emitChoice(lines, at); next != at) return next;
             Pending pending;
             const std::size_t used = expandLine(lines, at, pending);
             flush(pending);
@@ -79,43 +80,6 @@ private:
         } else {
             emitDirective(line.text, lines.origin(at), lines.source);
         }
-        return next;
-    }
-
-    /// A call of a macro whose definition a condition chooses is written once for each definition so far.
-    std::size_t emitChoice(const SourceLines& lines, std::size_t at) {
-        const auto [name, looked] = findChoice(*table_, lines, at, chosen_, limits_.maxArgument);
-        lookedAhead_ += looked;
-        if (lookedAhead_ > limits_.maxBytes)
-            stop(lines.text(at), lines.origin(at), "the calls of macros reach over too many lines",
-                 "close each call in its own line");
-        if (name.empty() || stopped_) return at;
-        if (chosen_.size() >= MacroTable::kMaxChoices) {
-            stop(lines.text(at), lines.origin(at),
-                 fmt::format("more than {} macros with several definitions in one line", MacroTable::kMaxChoices),
-                 "write them on lines of their own");
-            return at;
-        }
-        const std::vector<const MacroDefinition*> choices = choices_[name];
-        chosen_.push_back(name);
-        std::size_t next = at;
-        const std::size_t included = included_.size();
-        std::vector<const SourceText*> ofCopies;
-        for (std::size_t i = 0; i < choices.size() && !stopped_; ++i) {
-            const bool only = choices.size() == 1;
-            latest_[name] = choices[i];
-            if (!only)
-                emitDirective(fmt::format("#{} {} == {}", i == 0 ? "if" : "elif", choiceOf(name), i + 1),
-                              lines.origin(at), lines.source);
-            next = emitLine(lines, at);
-            if (only) continue;
-            const auto ofCopy = included_.cutTo(included);
-            ofCopies.insert(ofCopies.end(), ofCopy.begin(), ofCopy.end());
-        }
-        for (const SourceText* text : ofCopies) included_.insert(*text);
-        if (choices.size() > 1) emitDirective("#endif", lines.origin(at), lines.source);
-        if (choices.empty()) next = emitLine(lines, at);
-        chosen_.pop_back();
         return next;
     }
 
@@ -197,8 +161,8 @@ private:
             std::find(out_.extensions.begin(), out_.extensions.end(), read.extension) == out_.extensions.end())
             out_.extensions.push_back(std::move(read.extension));
         if (read.meta) {
-            out_.metas.push_back(std::make_unique<DefineInfo>(std::move(*read.meta)));
-            out_.metas.back()->where = place(line, origin);
+            out_.metas.push_back(std::make_unique<StageMacro>(std::move(*read.meta)));
+            out_.metas.back()->info.where = place(line, origin);
             out_.directives.push_back({LineKind::Pragma, lineCount(), 0, 0, nullptr, out_.metas.back().get(), origin});
         }
         if (!read.mark) return;
@@ -228,6 +192,15 @@ private:
             std::size_t call = table_->findCall(text, from);
             if (call == std::string_view::npos) break;
             const std::string_view name = leadingName(text.substr(call));
+            if (isOpenChoice(name)) {
+                keep(call);
+                const SourceLoc where = placeAt(text, call, name.size(), lines.origin(at + used - 1));
+                if (!expandedFrom_) callPlace_ = where;
+                const std::size_t last = expandChoices(lines, at + used - 1, call, name, from, pending);
+                used = last - at + 1;
+                text = lines.text(last);
+                continue;
+            }
             const MacroDefinition* macro = latest_.contains(name) ? latest_[name] : table_->find(name);
             const bool active = macro == nullptr || std::find(active_.begin(), active_.end(), name) != active_.end();
             keep(call);
@@ -239,9 +212,7 @@ private:
                 arguments = readArguments(lines, at + used - 1, call + name.size(), limits_.maxArgument);
             if (active || (macro->functionLike && !arguments.found)) {
                 if (arguments.unclosed) {
-                    problems_.error(where, fmt::format("the call of macro '{}' is not closed", name),
-                                    "a ')' is missing");
-                    stopped_ = true;  // The next would look through as many lines again.
+                    reportUnclosed(name, where);
                 }
                 keep(call + name.size());
                 continue;
@@ -252,10 +223,7 @@ private:
                 text = lines.text(arguments.line);
                 from = arguments.end;
                 if (!matchArguments(*macro, arguments.values)) {
-                    problems_.error(where,
-                                    fmt::format("macro '{}' takes {} arguments, {} are given", name,
-                                                macro->parameters.size(), arguments.values.size()),
-                                    "give each parameter one");
+                    reportArguments(*macro, arguments.values.size(), where);
                     continue;
                 }
             }
@@ -268,6 +236,90 @@ private:
         endedInDirective_ = endedInDirective_ && trimBlank(text.substr(from)).empty();
         keep(text.size());
         return used;
+    }
+
+    /// Several definitions of the macro stand above, and none of them is taken yet.
+    bool isOpenChoice(std::string_view name) const {
+        const auto it = choices_.find(name);
+        return it != choices_.end() && it->second.size() > 1 &&
+               std::find(chosen_.begin(), chosen_.end(), name) == chosen_.end() &&
+               std::find(active_.begin(), active_.end(), name) == active_.end();
+    }
+
+    /// Writes the call of a macro whose definition a condition chooses once for each: a line of code may be broken
+    /// anywhere. Returns the line on which the call ends; `from` is the column behind it.
+    template <class Lines>
+    std::size_t expandChoices(const Lines& lines, std::size_t at, std::size_t call, std::string_view name,
+                              std::size_t& from, Pending& pending) {
+        const std::vector<const MacroDefinition*> choices = choices_[name];
+        const Origin origin = lines.origin(at);
+        CallArguments arguments;
+        if (std::any_of(choices.begin(), choices.end(), [](const auto* macro) { return macro->functionLike; }))
+            arguments = readArguments(lines, at, call + name.size(), limits_.maxArgument);
+        if (arguments.unclosed) {
+            reportUnclosed(name, callPlace_);
+            from = call + name.size();
+            return at;
+        }
+        const std::size_t last = arguments.found ? arguments.line : at;
+        const std::string_view text = lines.text(last);
+        from = arguments.found ? arguments.end : call + name.size();
+        const std::size_t behind = std::min(text.find_first_not_of(" \t", from), text.size());
+        const bool statement = behind < text.size() && text[behind] == ';';
+        if (statement) from = behind + 1;
+        flush(pending);
+        const MacroDefinition* const latest = latest_[name];
+        chosen_.push_back(name);
+        const std::size_t included = included_.size();
+        std::vector<const SourceText*> ofCopies;
+        bool allEnd = true;
+        for (std::size_t i = 0; i < choices.size() && !stopped_; ++i) {
+            latest_[name] = choices[i];
+            emitDirective(fmt::format("#{} {} == {}", i == 0 ? "if" : "elif", choiceOf(name), i + 1), origin,
+                          *choices[i]->source);
+            Pending copy{{}, origin};
+            const bool ended = expandChoice(*choices[i], arguments, origin, copy);
+            if (statement && !ended) copy.text += ';';
+            allEnd = allEnd && (ended || statement);
+            flush(copy);
+            const auto ofCopy = included_.cutTo(included);
+            ofCopies.insert(ofCopies.end(), ofCopy.begin(), ofCopy.end());
+        }
+        for (const SourceText* one : ofCopies) included_.insert(*one);
+        emitDirective("#endif", origin, *choices.front()->source);
+        chosen_.pop_back();
+        latest_[name] = latest;
+        endedInDirective_ = allEnd;
+        return last;
+    }
+
+    /// One of the definitions: those without parameters leave the brackets standing, those with them need brackets.
+    bool expandChoice(const MacroDefinition& macro, const CallArguments& arguments, Origin origin, Pending& pending) {
+        if (macro.functionLike && !arguments.found) {
+            pending.text += macro.name;
+            return false;
+        }
+        std::vector<std::string> values = arguments.values;
+        if (macro.functionLike && !matchArguments(macro, values)) {
+            reportArguments(macro, values.size(), callPlace_);
+            return false;
+        }
+        const bool ended = expand(macro, macro.functionLike ? values : std::vector<std::string>{}, origin, pending);
+        if (macro.functionLike || !arguments.found) return ended;
+        pending.text += fmt::format("({})", fmt::join(arguments.values, ", "));
+        return false;
+    }
+
+    void reportUnclosed(std::string_view name, const SourceLoc& where) {
+        problems_.error(where, fmt::format("the call of macro '{}' is not closed", name), "a ')' is missing");
+        stopped_ = true;  // The next would look through as many lines again.
+    }
+
+    void reportArguments(const MacroDefinition& macro, std::size_t given, const SourceLoc& where) {
+        problems_.error(
+            where,
+            fmt::format("macro '{}' takes {} arguments, {} are given", macro.name, macro.parameters.size(), given),
+            "give each parameter one");
     }
 
     /// Writes a macro's body. True when its last line was a preprocessor line.
@@ -370,13 +422,13 @@ private:
     std::unordered_map<std::string, std::uint32_t> fileIndices_;
     std::unordered_map<std::string_view, const MacroDefinition*> latest_;  ///< As the text has defined them so far.
     std::unordered_map<std::string_view, std::vector<const MacroDefinition*>> choices_;  ///< Likewise, where several.
-    std::vector<std::string_view> chosen_;  ///< Whose latest_ the present line has chosen.
+    std::vector<std::string_view> chosen_;  ///< Whose definition is chosen for the text that is being written.
     IncludedTexts included_;
     std::vector<const SourceText*> stack_;
     std::vector<std::string_view> active_;  ///< Macros being expanded: they are not expanded within themselves.
     std::optional<Origin> expandedFrom_;    ///< The author's call that writes the present lines.
     SourceLoc callPlace_;                   ///< Of that call.
-    std::size_t includes_ = 0, expansions_ = 0, written_ = 0, lookedAhead_ = 0;
+    std::size_t includes_ = 0, expansions_ = 0, written_ = 0;
     struct {
         std::size_t expansions = 0, written = 0;
     } before_;  ///< The counts before that call.

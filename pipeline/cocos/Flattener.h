@@ -24,7 +24,7 @@ struct FlatDirective {
     std::uint32_t line = 0;                  ///< Of the flat text, counted from 0; PragmaDefine: the line behind it.
     std::size_t offset = 0, length = 0;      ///< Conditionals, Define: the line itself in the flat text.
     const MacroDefinition* macro = nullptr;  ///< Define, PragmaDefine; null when the line is not a chunk's own.
-    const DefineInfo* meta = nullptr;        ///< Pragma: a description.
+    const StageMacro* meta = nullptr;        ///< Pragma: a description.
     FlatSource::Origin origin{};
 };
 
@@ -33,7 +33,7 @@ struct Flattened {
     std::vector<PragmaMark> marks;
     std::vector<std::string> extensions;
     std::vector<FlatDirective> directives;
-    std::vector<std::unique_ptr<DefineInfo>> metas;  ///< What `directives` points to.
+    std::vector<std::unique_ptr<StageMacro>> metas;  ///< What `directives` points to.
 };
 
 /// `program` is a CCProgram of the effect or a chunk; `where` is the pass that names it.

@@ -379,6 +379,10 @@ void InterfaceReader::addSubpassInputs(int line) {
 
 }  // namespace
 
+bool isEngineName(std::string_view name) {
+    return name.size() > 2 && (name[0] == 'c' || name[0] == 'C') && (name[1] == 'c' || name[1] == 'C');
+}
+
 StageInterface readInterface(const StageText& stage, Problems& problems) {
     return InterfaceReader(stage, problems).read();
 }

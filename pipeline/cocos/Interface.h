@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "cocos/StageText.h"
@@ -76,6 +77,9 @@ struct InterfaceStatement {
     bool flat = false;                     ///< The word is missing: integers are not interpolated.
     bool fromPragma = false;               ///< A subpass input that a pragma declares: all of it is to be written.
 };
+
+/// `cc` in front, in any case: such names belong to the engine, and no material's number is for them.
+bool isEngineName(std::string_view name);
 
 struct StageInterface {
     ShaderStageBits stage = kVertexBit;

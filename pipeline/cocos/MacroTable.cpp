@@ -61,34 +61,6 @@ void MacroTable::chooseChosen() {
     };
     for (const MacroDefinition* macro : all_)
         if (expanded_.contains(macro->name) && !equal(*macro, *find(macro->name))) chosen_.insert(macro->name);
-    for (const std::string_view name : chosen_) leadsTo_[name] = {name};
-    int rounds = chosen_.empty() ? 0 : 64;  // More than macros may nest.
-    for (bool grown = true; grown && rounds > 0; --rounds) {
-        grown = false;
-        for (const MacroDefinition* macro : all_) {
-            if (!expanded_.contains(macro->name)) continue;
-            auto& own = leadsTo_[macro->name];
-            for (const auto& part : macro->body)
-                for (auto name = findChoice(part.text, own);
-                     !name.empty() && own.size() <= kMaxChoices;  // one too many is seen
-                     name = findChoice(part.text, own)) {
-                    own.push_back(name);
-                    grown = true;
-                }
-        }
-    }
-}
-
-std::string_view MacroTable::findChoice(std::string_view text, const std::vector<std::string_view>& known) const {
-    if (chosen_.empty()) return {};
-    for (std::size_t at = findCall(text, 0); at != std::string_view::npos;) {
-        const std::string_view call = leadingName(text.substr(at));
-        const auto it = leadsTo_.find(call);
-        for (const std::string_view name : it == leadsTo_.end() ? std::vector<std::string_view>{} : it->second)
-            if (std::find(known.begin(), known.end(), name) == known.end()) return name;
-        at = findCall(text, at + call.size());
-    }
-    return {};
 }
 
 void MacroTable::expand(std::string_view name) {

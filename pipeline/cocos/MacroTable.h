@@ -19,9 +19,6 @@ public:
     /// What an #include in `from` means; null = nothing, somebody else reports it.
     using Resolve = std::function<const SourceText*(const SourceText& from, std::string_view rest)>;
 
-    /// As many macros of one line may have definitions that a condition chooses between.
-    static constexpr std::size_t kMaxChoices = 8;
-
     /// At most `maxSources` texts are looked at.
     MacroTable(const SourceText& program, const Resolve& resolve, std::size_t maxSources);
 
@@ -30,9 +27,6 @@ public:
     const MacroDefinition* find(std::string_view name) const;
     /// True for an expanded name with definitions that differ: a condition chooses between them when the shader runs.
     bool isChosen(std::string_view name) const { return chosen_.contains(name); }
-    bool hasChoices() const { return !chosen_.empty(); }
-    /// The first such name that `text` calls, also through other macros, and that `known` does not have; else empty.
-    std::string_view findChoice(std::string_view text, const std::vector<std::string_view>& known) const;
     /// Where the next name to be expanded stands in a line of code, from `from` on; npos = nowhere.
     std::size_t findCall(std::string_view text, std::size_t from) const;
 
@@ -46,8 +40,6 @@ private:
     std::unordered_set<const SourceText*> seen_;
     std::unordered_map<std::string_view, const MacroDefinition*> first_;
     std::unordered_set<std::string_view> expanded_, chosen_;
-    /// Expanded names → the chosen ones that their expansion may call.
-    std::unordered_map<std::string_view, std::vector<std::string_view>> leadsTo_;
     std::array<bool, 128> firstLetters_{};  ///< Of the expanded names: most words are passed over by one look.
 };
 

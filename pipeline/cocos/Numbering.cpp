@@ -123,10 +123,12 @@ void numberMaterial(const std::vector<const InterfaceDeclaration*>& resources, B
         taken.insert(slots.emplace(d->name, slot).first->second.binding);
     }
     std::uint32_t next = 0;
-    for (const InterfaceDeclaration* d : resources) {
-        if (d->builtin != Builtin::None || slots.contains(d->name)) continue;
-        while (taken.contains(next)) ++next;
-        slots.emplace(d->name, BindingSlot{kMaterialSet, next++});
+    for (const bool ofEngine : {false, true}) {  // The engine's names take no number from the material's.
+        for (const InterfaceDeclaration* d : resources) {
+            if (d->builtin != Builtin::None || slots.contains(d->name) || isEngineName(d->name) != ofEngine) continue;
+            while (taken.contains(next)) ++next;
+            slots.emplace(d->name, BindingSlot{kMaterialSet, next++});
+        }
     }
 }
 

@@ -1,8 +1,8 @@
-// A pass with its states in the engine's numbers.
-#include <algorithm>
+// A pass with its words in the engine's numbers, by the one rule that Cocos' compiler has for all of them.
 #include <array>
+#include <charconv>
+#include <cmath>
 #include <map>
-#include <span>
 
 #include "cocos/Reflection.h"
 #include "core/StateNames.h"
@@ -11,134 +11,116 @@
 namespace crevice::cocos {
 namespace {
 
-using Names = std::span<const char* const>;
+using Words = std::map<std::string, Value, std::less<>>;
 
-constexpr std::array kShadeNames = {"gourand", "flat"};
+template <std::size_t N>
+void addInOrder(Words& words, const std::array<const char*, N>& names) {
+    for (std::size_t i = 0; i < N; ++i) words.emplace(names[i], Value::makeInteger(static_cast<std::int64_t>(i)));
+}
 
-/// A word of the list as its place in it; everything else stays.
-Value numbered(const Value& value, Names names) {
-    if (!value.isString()) return value;
+/// All words of a pass: each means one number wherever it stands.
+Words makeWords() {
+    Words words;
+    addInOrder(words, kBlendFactorNames);
+    addInOrder(words, kBlendOpNames);
+    addInOrder(words, kStencilNames);
+    addInOrder(words, kCompareNames);
+    addInOrder(words, kCullNames);
+    addInOrder(words, kPolygonNames);
+    addInOrder(words, kTopologyNames);
+    addInOrder(words, std::array{"gourand", "flat"});
+    addInOrder(words, std::array{"none", "point", "linear", "anisotropic"});
+    addInOrder(words, std::array{"wrap", "mirror", "clamp", "border"});
+    for (const auto& [word, number] : {std::pair("line_width", 1),
+                                       {"depth_bias", 2},
+                                       {"blend_constants", 4},
+                                       {"depth_bounds", 8},
+                                       {"stencil_write_mask", 16},
+                                       {"stencil_compare_mask", 32},
+                                       {"default", 100},
+                                       {"ui", 200}})
+        words.emplace(word, Value::makeInteger(number));
+    for (int mask = 1; mask < 15; ++mask) words.emplace(colorMaskWord(mask), Value::makeInteger(mask));
+    words.emplace("all", Value::makeInteger(15));
+    words.emplace("true", Value::makeBool(true));
+    words.emplace("false", Value::makeBool(false));
+    return words;
+}
+
+/// A number at the front, as JavaScript's parseInt() reads it; else a word of the table; else what it is.
+Value mapWord(const Value& value) {
+    static const Words kWords = makeWords();
     const std::string word = lowerCase(value.string());
-    for (std::size_t i = 0; i < names.size(); ++i)
-        if (word == names[i]) return Value::makeInteger(static_cast<std::int64_t>(i));
-    return value;
+    std::string_view digits(word);
+    const bool hex = digits.starts_with("0x");
+    std::int64_t number = 0;
+    if (hex) digits.remove_prefix(2);
+    if (digits.starts_with('+')) digits.remove_prefix(1);
+    if (std::from_chars(digits.data(), digits.data() + digits.size(), number, hex ? 16 : 10).ec == std::errc{})
+        return Value::makeInteger(number);
+    const auto it = kWords.find(word);
+    return it == kWords.end() ? value : it->second;
 }
 
-Value colorMask(const Value& value) {
-    static const std::map<std::string, int> kBits = {{"none", 0}, {"r", 1}, {"g", 2}, {"b", 4}, {"a", 8}, {"all", 15}};
-    if (!value.isString()) return value;
-    const auto it = kBits.find(lowerCase(value.string()));
-    return it == kBits.end() ? value : Value::makeInteger(it->second);
-}
-
-Value dynamicStates(const Value& value) {
-    static const std::map<std::string, int> kBits = {{"line_width", 1},          {"depth_bias", 2},
-                                                     {"blend_constants", 4},     {"depth_bounds", 8},
-                                                     {"stencil_write_mask", 16}, {"stencil_compare_mask", 32}};
-    if (!value.isArray()) return value;
-    std::int64_t bits = 0;
-    for (const Value& item : value.items())
-        if (item.isString())
-            if (const auto it = kBits.find(lowerCase(item.string())); it != kBits.end()) bits |= it->second;
-    return Value::makeInteger(bits);
-}
-
-Value rasterizerState(const Value& written) {
-    Value out = Value::makeObject();
-    for (const Member& member : written.members()) {
-        if (member.key == "cullMode")
-            out.set(member.key, numbered(member.value, kCullNames));
-        else if (member.key == "polygonMode")
-            out.set(member.key, numbered(member.value, kPolygonNames));
-        else if (member.key == "shadeModel")
-            out.set(member.key, numbered(member.value, kShadeNames));
-        else
-            out.set(member.key, member.value);
+/// Numbers of a list are a colour: a byte each, red in front.
+Value packColor(const Value& list) {
+    std::uint32_t color = 0;
+    for (std::size_t i = 0; i < 4; ++i) {
+        const Value* item = i < list.items().size() ? &list.items()[i] : nullptr;
+        double part = item != nullptr && item->isNumber() ? item->number() : 0;
+        if (!(std::abs(part) < 1e9)) part = 0;
+        if (i == 3 && part == 0) part = 255;  // as the engine has it
+        color |= static_cast<std::uint32_t>(static_cast<std::int64_t>(part * 255)) << (24 - 8 * i);
     }
+    return Value::makeInteger(color);
+}
+
+Value mapAny(const Value& value) {
+    if (value.isString()) return mapWord(value);
+    if (value.isObject()) {
+        Value out = Value::makeObject();
+        for (const Member& member : value.members()) out.set(member.key, mapAny(member.value));
+        return out;
+    }
+    if (!value.isArray() || value.items().empty()) return value;
+    if (value.items().front().isNumber()) return packColor(value);
+    Value out = Value::makeArray();
+    for (const Value& item : value.items()) out.items().push_back(mapAny(item));
     return out;
 }
 
-Value depthStencilState(const Value& written) {
+/// A key without a face is for both, whatever else is written.
+Value bothFaces(const Value& written) {
     Value out = Value::makeObject();
-    for (const Member& member : written.members()) {
-        const std::string& key = member.key;
-        const bool compare = key == "depthFunc" || key.starts_with("stencilFunc");
-        const bool operation = key.find("Op") != std::string::npos;
-        const Value value = compare     ? numbered(member.value, kCompareNames)
-                            : operation ? numbered(member.value, kStencilNames)
-                                        : member.value;
-        const bool both = key.starts_with("stencil") && !key.ends_with("Front") && !key.ends_with("Back");
-        for (const char* side : {"Front", "Back"}) {
-            // Written out for a face, a value wins over the shorthand for both.
-            if (both && written.find(key + side) == nullptr) out.set(key + side, value);
-        }
-        if (!both) out.set(key, value);
-    }
+    const auto isShort = [](const std::string& key) {
+        return key.starts_with("stencil") && !key.ends_with("Front") && !key.ends_with("Back");
+    };
+    for (const Member& member : written.members())
+        if (!isShort(member.key)) out.set(member.key, member.value);
+    for (const Member& member : written.members())
+        for (const char* side : {"Front", "Back"})
+            if (isShort(member.key)) out.set(member.key + side, member.value);
     return out;
-}
-
-Value blendTarget(const Value& written) {
-    Value out = Value::makeObject();
-    for (const Member& member : written.members()) {
-        const std::string& key = member.key;
-        const bool equation = key == "blendEq" || key == "blendAlphaEq";
-        const bool factor = !equation && (key.starts_with("blendSrc") || key.starts_with("blendDst"));
-        out.set(key, equation                  ? numbered(member.value, kBlendOpNames)
-                     : factor                  ? numbered(member.value, kBlendFactorNames)
-                     : key == "blendColorMask" ? colorMask(member.value)
-                                               : member.value);
-    }
-    return out;
-}
-
-Value blendState(const Value& written) {
-    Value out = Value::makeObject();
-    for (const Member& member : written.members()) {
-        if (member.key != "targets" || !member.value.isArray()) {
-            out.set(member.key, member.value);
-            continue;
-        }
-        Value targets = Value::makeArray();
-        for (const Value& target : member.value.items())
-            targets.items().push_back(target.isObject() ? blendTarget(target) : target);
-        out.set("targets", std::move(targets));
-    }
-    return out;
-}
-
-Value stageQueue(const Value& value) {
-    if (!value.isString()) return value;
-    const std::string word = lowerCase(value.string());
-    return word == "default" ? Value::makeInteger(100) : word == "ui" ? Value::makeInteger(200) : value;
 }
 
 }  // namespace
 
 Value reflectPass(const Value& pass, const std::string& program, int priority, const UniformTypes& uniforms) {
-    static constexpr std::array kAsWritten = {"phase",  "pass",          "subpass",       "subphase",
-                                              "switch", "propertyIndex", "embeddedMacros"};
     Value out = Value::makeObject();
     for (const Member& member : pass.members()) {
         const std::string& key = member.key;
         const Value& value = member.value;
-        if (std::find(kAsWritten.begin(), kAsWritten.end(), key) != kAsWritten.end())
-            out.set(key, value);
-        else if (key == "rasterizerState" && value.isObject())
-            out.set(key, rasterizerState(value));
-        else if (key == "depthStencilState" && value.isObject())
-            out.set(key, depthStencilState(value));
-        else if (key == "blendState" && value.isObject())
-            out.set(key, blendState(value));
-        else if (key == "primitive")
-            out.set(key, numbered(value, kTopologyNames));
-        else if (key == "dynamicStates")
-            out.set(key, dynamicStates(value));
-        else if (key == "stage")
-            out.set(key, stageQueue(value));
+        if (key == "vert" || key == "frag" || key == "compute" || key == "migrations") continue;
+        if (key == "depthStencilState" && value.isObject())
+            out.set(key, mapAny(bothFaces(value)));
         else if (key == "priority")
             out.set(key, Value::makeInteger(priority));
+        else if (key == "switch")
+            out.set(key, value);
         else if (key == "properties" && value.isObject())
             out.set(key, reflectProperties(value, uniforms));
+        else if (key != "properties")
+            out.set(key, mapAny(value));
     }
     out.set("program", Value::makeString(program));
     return out;

@@ -89,10 +89,11 @@ void readMetaPart(std::string_view word, std::string_view inside, DefineInfo& in
     }
 }
 
-/// "NAME range([0, 3]) default(1) editor(…)".
-Pragma readMeta(std::string_view text) {
+/// "NAME range([0, 3]) default(1) editor(…)". `old` = by the compiler up to 3.4, for which every default is a constant.
+Pragma readMeta(std::string_view text, bool old) {
     Pragma pragma;
-    DefineInfo info;
+    StageMacro macro;
+    DefineInfo& info = macro.info;
     info.name = leadingName(text);
     if (info.name.empty()) {
         pragma.mistake = "the pragma names no macro";
@@ -107,15 +108,19 @@ Pragma readMeta(std::string_view text) {
         const auto inside = takeBrackets(text);
         if (word.empty() || !inside) break;  // What follows is no part of the description.
         readMetaPart(word, *inside, info, hasDefault, pragma);
+        // Of several tags the last decides the type; a default that is no bool belongs to the engine.
+        if (word == "range" || word == "options") macro.constant = false;
+        if (word == "default") macro.constant = old || (trimBlank(*inside) != "true" && trimBlank(*inside) != "false");
         text = trimBlank(text);
     }
+    macro.hasDefault = hasDefault;
     if (!hasDefault && info.range) info.defaultValue = std::to_string(info.range->first);
     if (!hasDefault && !info.options.empty()) info.defaultValue = info.options[0];
     if (hasDefault && info.type == DefineType::Bool) {
         const auto number = toInteger(info.defaultValue);
         if (number && *number != 0 && *number != 1) info.type = DefineType::Number;
     }
-    if (pragma.mistake.empty()) pragma.meta = std::move(info);
+    if (pragma.mistake.empty()) pragma.meta = std::move(macro);
     return pragma;
 }
 
@@ -158,8 +163,8 @@ Pragma readPragma(std::string_view rest) {
     const std::string_view word = leadingName(rest);
     std::string_view tail = trimBlank(rest.substr(word.size()));
     if (word == "define") {
-        if (tail.starts_with("-meta")) tail = trimBlank(tail.substr(5));
-        return readMeta(tail);
+        const bool old = !tail.starts_with("-meta");
+        return readMeta(old ? tail : trimBlank(tail.substr(5)), old);
     }
     if (word == "rate") {
         const std::string_view name = leadingName(tail);

@@ -11,7 +11,7 @@ namespace crevice::cocos {
 
 /// One pragma taken apart. At most one of the members is set; a pragma that says nothing here sets none.
 struct Pragma {
-    std::optional<DefineInfo> meta;  ///< define-meta, and `define` with a describing tail.
+    std::optional<StageMacro> meta;  ///< define-meta, and `define` with a describing tail.
     std::optional<PragmaMark> mark;  ///< Without line.
     std::string extension;           ///< "#extension NAME : level", for version 450.
     std::string mistake;             ///< What is wrong with it.

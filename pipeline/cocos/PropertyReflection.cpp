@@ -24,8 +24,8 @@ Target parseTarget(const std::string& text) {
     Target target{text.substr(0, dot), 0, 0};
     if (dot == std::string::npos) return target;
     const std::string swizzle = text.substr(dot + 1);
-    const std::size_t first = std::string_view("xyzw").find(swizzle.empty() ? 'x' : swizzle.front());
-    target.offset = first == std::string_view::npos ? 0 : static_cast<int>(first);
+    const std::size_t first = std::string_view("xyzwrgba").find(swizzle.empty() ? 'x' : swizzle.front());
+    target.offset = first == std::string_view::npos ? 0 : static_cast<int>(first % 4);
     target.components = static_cast<int>(std::clamp<std::size_t>(swizzle.size(), 1, 4));
     return target;
 }
@@ -72,8 +72,7 @@ public:
         Value all = Value::makeObject();
         for (const Member& member : properties_.members())
             if (member.value.isObject()) all.set(member.key, property(member.key, member.value));
-        for (auto& [name, value] : merged_)
-            if (all.find(name) == nullptr) all.set(name, std::move(value));
+        for (const Fed& fed : fed_) merge(all, fed);
         return all;
     }
 
@@ -100,7 +99,7 @@ private:
 
         Value out = Value::makeObject();
         if (value != nullptr) out.set("value", listOf(*value));
-        if (linear != nullptr && linear->isBool() && linear->boolean()) out.set("linear", Value::makeBool(true));
+        if (linear != nullptr && linear->isBool()) out.set("linear", *linear);
         out.set("type", Value::makeInteger(type));
         if (const Value* sampler = written.find("sampler"); sampler != nullptr && sampler->isObject())
             out.set("samplerHash", Value::makeInteger(samplerHash(*sampler)));
@@ -109,35 +108,38 @@ private:
             handle.items() = {Value::makeString(target.uniform), Value::makeInteger(target.offset),
                               Value::makeInteger(type)};
             out.set("handleInfo", std::move(handle));
-            if (properties_.find(target.uniform) == nullptr) merge(target, type, value);
+            fed_.push_back({target, type, value});
         }
         return out;
     }
 
-    /// The uniform's own entry: zeros, and what its properties say of their components.
-    void merge(const Target& target, int propertyType, const Value* value) {
-        auto entry =
-            std::find_if(merged_.begin(), merged_.end(), [&](const auto& m) { return m.first == target.uniform; });
-        if (entry == merged_.end()) {
-            int type = uniformType(target.uniform);
-            if (type == 0) type = target.components > 0 ? kFloat4 : propertyType;
+    /// A property that feeds a uniform.
+    struct Fed {
+        Target target;
+        int type = 0;
+        const Value* value = nullptr;
+    };
+
+    /// The uniform's own entry, which its properties may have or not: zeros, and what they say of their components.
+    void merge(Value& all, const Fed& fed) const {
+        const Target& target = fed.target;
+        int type = uniformType(target.uniform);
+        if (type == 0) type = target.components > 0 ? kFloat4 : fed.type;
+        if (all.find(target.uniform) == nullptr) {
             Value made = Value::makeObject();
             made.set("type", Value::makeInteger(type));
-            if (componentsOf(type) > 0) {
-                Value zeros = Value::makeArray();
-                zeros.items().assign(static_cast<std::size_t>(componentsOf(type)), Value::makeInteger(0));
-                made.set("value", std::move(zeros));
-            }
-            merged_.emplace_back(target.uniform, std::move(made));
-            entry = merged_.end() - 1;
+            all.set(target.uniform, std::move(made));
         }
-        if (value == nullptr) return;
-        const Value list = listOf(*value);
-        if (list.isString()) {
-            if (entry->second.find("value") == nullptr) entry->second.set("value", list);
-            return;
+        Value& entry = *all.find(target.uniform);
+        if (componentsOf(type) > 0 && entry.find("value") == nullptr) {
+            Value zeros = Value::makeArray();
+            zeros.items().assign(static_cast<std::size_t>(componentsOf(type)), Value::makeInteger(0));
+            entry.set("value", std::move(zeros));
         }
-        Value* defaults = entry->second.find("value");
+        if (fed.value == nullptr) return;
+        const Value list = listOf(*fed.value);
+        if (list.isString()) return entry.set("value", list);
+        Value* defaults = entry.find("value");
         if (defaults == nullptr || !defaults->isArray()) return;
         for (std::size_t i = 0; i < list.items().size(); ++i) {
             const std::size_t component = static_cast<std::size_t>(target.offset) + i;
@@ -147,7 +149,7 @@ private:
 
     const Value& properties_;
     const UniformTypes& uniforms_;
-    std::vector<std::pair<std::string, Value>> merged_;  ///< In the order of the first property that feeds each.
+    std::vector<Fed> fed_;
 };
 
 }  // namespace

@@ -33,6 +33,8 @@ public:
     ShaderReflection(const std::vector<StageText>& stages, Problems& problems) : stages_(stages) {
         for (const StageText& stage : stages) interfaces_.push_back(readInterface(stage, problems));
         numbers_ = numberInterfaces(interfaces_, problems);
+        for (StageMacro& macro : joinMacros(stages))
+            if (!macro.constant) macros_.push_back(std::move(macro));
     }
 
     Value run(const std::string& name) const {
@@ -56,12 +58,18 @@ public:
     }
 
 private:
+    /// Cocos knows its own by their names; without a pragma in front of it such a one is global.
+    static Builtin sideOf(const InterfaceDeclaration& declaration) {
+        return declaration.builtin == Builtin::None && isEngineName(declaration.name) ? Builtin::Global
+                                                                                      : declaration.builtin;
+    }
+
     std::vector<Resource> resources(InterfaceKind kind, Builtin builtin) const {
         std::vector<Resource> found;
         std::map<std::string_view, std::size_t> byName;
         for (std::size_t i = 0; i < interfaces_.size(); ++i) {
             for (const InterfaceDeclaration& declaration : interfaces_[i].declarations) {
-                if (declaration.kind != kind || declaration.builtin != builtin) continue;
+                if (declaration.kind != kind || sideOf(declaration) != builtin) continue;
                 const auto [it, isNew] = byName.emplace(declaration.name, found.size());
                 if (isNew) found.push_back({&declaration, &stages_[i], 0});
                 found[it->second].stages |= interfaces_[i].stage;
@@ -74,6 +82,19 @@ private:
         Value list = Value::makeArray();
         if (declaration.conditions < stage.conditions.size())
             for (const std::string& condition : stage.conditions[declaration.conditions]) append(list, text(condition));
+        return list;
+    }
+
+    /// The same without macros that no material sets.
+    Value materialConditions(const StageText& stage, const InterfaceDeclaration& declaration) const {
+        Value all = conditions(stage, declaration), list = Value::makeArray();
+        for (Value& condition : all.items()) {
+            const std::string& need = condition.string();
+            const std::string_view name = std::string_view(need).substr(need.starts_with('!') ? 1 : 0);
+            const bool listed = std::any_of(macros_.begin(), macros_.end(),
+                                            [&](const StageMacro& macro) { return macro.info.name == name; });
+            if (listed) append(list, std::move(condition));
+        }
         return list;
     }
 
@@ -109,7 +130,7 @@ private:
                 item.set("count", number(declaration.size.count));
             if (kind == InterfaceKind::Buffer || kind == InterfaceKind::Image)
                 item.set("memoryAccess", number(declaration.readOnly ? 1 : declaration.writeOnly ? 2 : 3));
-            item.set("defines", conditions(*resource.text, declaration));
+            item.set("defines", materialConditions(*resource.text, declaration));
             item.set("stageFlags", number(resource.stages));
             item.set("binding", number(numbers_.slots.at(declaration.name).binding));
             if (kind == InterfaceKind::Block) item.set("members", members(declaration));
@@ -153,19 +174,18 @@ private:
 
     Value defines() const {
         Value list = Value::makeArray();
-        for (const StageMacro& macro : joinMacros(stages_)) append(list, define(macro.info));
+        for (const StageMacro& macro : macros_) append(list, define(macro));
         return list;
     }
 
-    static Value define(const DefineInfo& info) {
+    static Value define(const StageMacro& macro) {
+        const DefineInfo& info = macro.info;
         Value item = Value::makeObject();
         item.set("name", text(info.name));
-        std::string usual = "0";
         if (info.type == DefineType::String) {
             item.set("type", text("string"));
             Value options = Value::makeArray();
             for (const std::string& option : info.options) append(options, text(option));
-            if (!info.options.empty()) usual = info.options.front();
             item.set("options", std::move(options));
         } else if (info.type == DefineType::Number) {
             item.set("type", text("number"));
@@ -174,12 +194,11 @@ private:
                 append(range, number(info.range->first));
                 append(range, number(info.range->second));
                 item.set("range", std::move(range));
-                usual = std::to_string(info.range->first);
             }
         } else {
             item.set("type", text("boolean"));
         }
-        if (info.defaultValue != usual && info.defaultValue != "0") item.set("default", defaultOf(info));
+        if (macro.hasDefault) item.set("default", defaultOf(info));
         return item;
     }
 
@@ -205,7 +224,7 @@ private:
     Value attribute(const StageText& stage, const InterfaceDeclaration& declaration) const {
         Value item = Value::makeObject();
         item.set("name", text(declaration.name));
-        Value enclosing = conditions(stage, declaration);
+        Value enclosing = materialConditions(stage, declaration);
         const bool instanced = std::any_of(enclosing.items().begin(), enclosing.items().end(),
                                            [](const Value& v) { return v.string() == "USE_INSTANCING"; });
         item.set("defines", std::move(enclosing));
@@ -223,6 +242,7 @@ private:
     const std::vector<StageText>& stages_;
     std::vector<StageInterface> interfaces_;
     Numbers numbers_;
+    std::vector<StageMacro> macros_;  ///< Those that a material may set.
 };
 
 }  // namespace

@@ -11,6 +11,7 @@
 
 #include "cocos/Conditions.h"
 #include "cocos/EngineMacros.h"
+#include "cocos/LiveFunctions.h"
 #include "cocos/MacroWeight.h"
 
 namespace crevice::cocos {
@@ -44,8 +45,9 @@ public:
     Analysis(StageText& out, std::vector<FlatDirective> directives, Problems& problems)
         : out_(out), directives_(std::move(directives)), problems_(problems) {}
 
-    void run() {
+    void run(std::string_view entry) {
         collectDefinitions();
+        findDead(entry);
         out_.conditionOf.assign(out_.flat.lines.size(), 0);
         for (const FlatDirective& directive : directives_) read(directive);
         fillTo(out_.flat.lines.size());
@@ -62,7 +64,6 @@ private:
     struct Frame {
         std::vector<std::string> outer;             ///< Needs of the enclosing conditions.
         std::vector<std::string> earlier, current;  ///< That earlier branches were not taken; that this one is.
-        std::vector<std::string> negated;           ///< That this one is not.
         std::vector<std::string> raw;               ///< The same as expressions; the last one is the present branch.
         const FlatDirective* opened = nullptr;
     };
@@ -84,6 +85,27 @@ private:
         }
     }
 
+    void findDead(std::string_view entry) {
+        MacroBodies macros;
+        for (const auto& [name, definitions] : definitions_)
+            for (const MacroDefinition* macro : definitions)
+                for (const auto& part : macro->body) macros[name].emplace_back(part.text);
+        dead_ = findDeadFunctions(out_.flat.text, entry, macros);
+    }
+
+    /// Directives come in the order of the text, and so do functions.
+    bool isDead(const FlatDirective& directive) {
+        while (nextDead_ < dead_.size() && dead_[nextDead_].lastLine < directive.line) ++nextDead_;
+        return nextDead_ < dead_.size() && dead_[nextDead_].firstLine < directive.line;
+    }
+
+    /// Lines stay lines. Nothing may look at the text's directives behind this.
+    void dropDead() {
+        for (auto function = dead_.rbegin(); function != dead_.rend(); ++function)
+            out_.flat.text.replace(function->begin, function->end - function->begin,
+                                   std::string(function->lastLine - function->firstLine, '\n'));
+    }
+
     SourceLoc placeOf(const FlatDirective& directive) const {
         const std::string_view text = textOf(directive);
         const auto begin = std::min(text.find_first_not_of(" \t"), text.size());
@@ -96,7 +118,8 @@ private:
     }
 
     void read(const FlatDirective& directive) {
-        if (directive.kind == LineKind::Pragma) return describe(*directive.meta);
+        const bool dead = isDead(directive);
+        if (directive.kind == LineKind::Pragma && !dead) describe(*directive.meta);
         if (directive.kind == LineKind::PragmaDefine) {
             if (directive.macro->dead || directive.macro->bearsDirectives) return;
             Hoisted hoisted{directive.macro, directive.origin, {}};
@@ -104,7 +127,7 @@ private:
                 hoisted.raw.insert(hoisted.raw.end(), frame.raw.begin(), frame.raw.end());
             hoisted_.push_back(std::move(hoisted));
         }
-        if (!isConditional(directive.kind)) return;
+        if (!isConditional(directive.kind) || dead) return;
         fillTo(directive.line);
         const Directive line = readDirective(textOf(directive));
         place_ = &directive;
@@ -125,9 +148,7 @@ private:
     void open(const Directive& line) {
         Frame frame;
         if (!frames_.empty()) frame.outer = needsOf(frames_.back());
-        const Condition condition = evaluate(line);
-        frame.current = condition.needs;
-        frame.negated = condition.negated;
+        frame.current = evaluate(line);
         frame.raw.push_back(rawOf(line));
         frame.opened = place_;
         frames_.push_back(std::move(frame));
@@ -135,14 +156,12 @@ private:
 
     void readBranch(const Directive& line) {
         Frame& frame = frames_.back();
-        frame.earlier.insert(frame.earlier.end(), frame.negated.begin(), frame.negated.end());
+        const std::vector<std::string> turned = turnRound(frame.current);
+        frame.earlier.insert(frame.earlier.end(), turned.begin(), turned.end());
         frame.raw.back() = "!(" + frame.raw.back() + ")";
         frame.current.clear();
-        frame.negated.clear();
         if (line.kind == LineKind::Else) return;
-        const Condition condition = evaluate(line);
-        frame.current = condition.needs;
-        frame.negated = condition.negated;
+        frame.current = evaluate(line);
         frame.raw.push_back(rawOf(line));
     }
 
@@ -152,24 +171,22 @@ private:
         return fmt::format("({})", line.rest);
     }
 
-    Condition evaluate(const Directive& line) {
+    /// What the branch needs.
+    std::vector<std::string> evaluate(const Directive& line) {
         if (line.kind == LineKind::If || line.kind == LineKind::Elif) {
-            Condition condition = readCondition(
-                line.rest, [this](std::string_view name, bool isValue) { return lookUp(name, isValue, 0); });
-            if (condition.tooDeep)
+            const auto lookup = [this](std::string_view name, bool isValue) { return lookUp(name, isValue, 0); };
+            if (readCondition(line.rest, lookup).tooDeep)
                 problems_.error({out_.flat.files[place_->origin.file], place_->origin.line},
                                 "the condition nests brackets deeper than 200", "write it with fewer brackets");
-            for (const std::string& name : condition.compared)
+            KeptNames kept = keepNames(line.rest, lookup);
+            for (const std::string& name : kept.compared)
                 if (const auto it = macroIndex_.find(name); it != macroIndex_.end())
                     inferNumber(out_.macros[it->second]);
-            return condition;
+            return std::move(kept.needs);
         }
         const std::string name(leadingName(line.rest));
-        Condition condition;
-        if (name.empty() || !lookUp(name, false, 0).outside) return condition;
-        condition.needs = {name};
-        condition.negated = {"!" + name};
-        return line.kind == LineKind::Ifndef ? negate(condition) : condition;
+        if (name.empty() || !lookUp(name, false, 0).outside) return {};
+        return {line.kind == LineKind::Ifndef ? "!" + name : name};
     }
 
     /// A name in a condition. Macros of the text stand for what they are defined as; others are asked of the outside.
@@ -236,17 +253,19 @@ private:
         }
     }
 
-    /// The first description of a macro holds; those of names that the text defines itself say nothing. A description
-    /// without a tag leaves a number what its comparisons make of it.
-    void describe(const DefineInfo& meta) {
-        if (definitions_.contains(meta.name) || inText_.contains(meta.name) || engineConstants().contains(meta.name))
-            return;
-        DefineInfo* info = entry(meta.name);
-        if (info->described) return;
-        const bool tested = info->tested;
-        *info = meta;
-        info->tested = tested;
-        StageMacro& macro = out_.macros[macroIndex_.find(meta.name)->second];
+    /// Descriptions of names that the text defines itself say nothing; of several the last that says something holds. A
+    /// description without a tag leaves a number what its comparisons make of it.
+    void describe(const StageMacro& meta) {
+        const std::string& name = meta.info.name;
+        if (definitions_.contains(name) || inText_.contains(name) || engineConstants().contains(name)) return;
+        const DefineInfo* known = entry(name);
+        StageMacro& macro = out_.macros[macroIndex_.find(name)->second];
+        if (known->described && meta.info.type == DefineType::Bool && !meta.hasDefault) return;
+        const bool tested = known->tested;
+        macro.info = meta.info;
+        macro.info.tested = tested;
+        macro.hasDefault = meta.hasDefault;
+        macro.constant = meta.constant;
         if (std::exchange(macro.inferred, false)) inferNumber(macro);
     }
 
@@ -330,6 +349,7 @@ private:
     }
 
     void prepend(const std::string& text, const std::vector<FlatSource::Origin>& lines) {
+        dropDead();
         const int count = static_cast<int>(lines.size());
         out_.flat.text.insert(0, text);
         out_.flat.lines.insert(out_.flat.lines.begin(), lines.begin(), lines.end());
@@ -350,6 +370,8 @@ private:
     std::vector<Frame> frames_;
     std::vector<Hoisted> hoisted_;
     const FlatDirective* place_ = nullptr;
+    std::vector<FunctionRange> dead_;
+    std::size_t nextDead_ = 0;
     std::size_t filled_ = 0;
     std::uint32_t present_ = 0;
 };
@@ -363,13 +385,13 @@ void inferNumber(StageMacro& macro) {
     macro.inferred = true;
 }
 
-StageText analyzeStage(ShaderStageBits stage, Flattened flattened, Problems& problems) {
+StageText analyzeStage(ShaderStageBits stage, Flattened flattened, std::string_view entry, Problems& problems) {
     StageText out;
     out.stage = stage;
     out.flat = std::move(flattened.flat);
     out.marks = std::move(flattened.marks);
     out.extensions = std::move(flattened.extensions);
-    Analysis(out, std::move(flattened.directives), problems).run();
+    Analysis(out, std::move(flattened.directives), problems).run(entry.empty() ? "main" : entry);
     return out;
 }
 

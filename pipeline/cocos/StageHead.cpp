@@ -38,6 +38,8 @@ void join(StageMacro& macro, const StageMacro& other) {
     if (!macro.info.described && other.info.described) {
         macro.info = other.info;
         macro.inferred = other.inferred;
+        macro.hasDefault = other.hasDefault;
+        macro.constant = other.constant;
     }
     macro.info.tested = tested;
     if (inferred) inferNumber(macro);

@@ -22,12 +22,15 @@ struct PragmaMark {
     std::string
         value;     ///< Rate: "pass", "batch", … or empty; Format: "RGBA16UI"; GlBinding: the number; Subpass: "in".
     int line = 0;  ///< Of `flat.text`, counted from 1: where the pragma stood; the line is empty now.
+    char scalar = 'f';  ///< Subpass: of its components: f, i or u.
 };
 
 /// A macro that a condition of the stage tests or a metadata pragma declares; its value comes from outside.
 struct StageMacro {
     DefineInfo info;
     std::vector<std::string> conditions;  ///< Of its first occurrence: "USE_X", "!USE_Y".
+    bool hasDefault = false;              ///< A pragma gives one.
+    bool constant = false;                ///< The engine gives it a value, no material does: its default is no bool.
     bool inferred = false;  ///< A number with Cocos' usual range because a condition compares it; no pragma says so.
 };
 

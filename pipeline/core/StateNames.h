@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <string>
 
 namespace crevice {
 
@@ -42,5 +43,13 @@ inline constexpr std::array kTopologyNames = {"point_list",
                                               "triangle_strip_adjacency",
                                               "triangle_patch_adjacency",
                                               "quad_patch_list"};
+
+/// The word of a colour mask with red 1, green 2, blue 4, alpha 8: "rgb" of 7; nothing of 0.
+inline std::string colorMaskWord(int mask) {
+    std::string word;
+    for (int i = 0; i < 4; ++i)
+        if ((mask >> i & 1) != 0) word += "rgba"[i];
+    return word;
+}
 
 }  // namespace crevice

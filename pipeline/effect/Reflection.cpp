@@ -80,8 +80,17 @@ ImageUse scanImages(const std::vector<std::uint32_t>& words) {
     return use;
 }
 
+/// What crosses between stages: an output of the vertex stage, or an input of the fragment stage.
+struct Varying {
+    std::string name, type;
+    bool active = false;
+    SourceLoc where;
+};
+
 class StageReflection {
 public:
+    std::vector<Varying> varyings;
+
     StageReflection(const StageCode& code, const StageSource& source, ShaderInfo& info, Problems& problems)
         : code_(code),
           numbered_(source.numbered),
@@ -106,6 +115,7 @@ public:
         for (const auto& r : all.push_constant_buffers) refuse(r, "a push constant block", "declare a uniform block");
         if (code_.stage == kVertexBit) addVariables(all.stage_inputs, info_.inputs);
         if (code_.stage == kFragmentBit) addVariables(all.stage_outputs, info_.outputs);
+        if (code_.stage != kComputeBit) addVaryings(code_.stage == kVertexBit ? all.stage_outputs : all.stage_inputs);
         if (code_.stage == kComputeBit)
             for (std::uint32_t i = 0; i < 3; ++i)
                 info_.localSize[i] =
@@ -222,6 +232,17 @@ private:
         std::sort(out.begin(), out.end(), [](const auto& a, const auto& b) { return a.location < b.location; });
     }
 
+    template <class Resources>
+    void addVaryings(const Resources& resources) {
+        for (const auto& r : resources) {
+            const sc::SPIRType& type = compiler_.get_type(r.type_id);
+            Varying varying{compiler_.get_name(r.id), typeName(compiler_.get_type(r.base_type_id)),
+                            active_.contains(r.id), names_.declared(compiler_.get_name(r.id))};
+            for (const std::uint32_t size : type.array) varying.type += fmt::format("[{}]", size);
+            varyings.push_back(std::move(varying));
+        }
+    }
+
     const StageCode& code_;
     bool numbered_;
     Declarations names_;
@@ -231,6 +252,19 @@ private:
     std::unordered_set<sc::VariableID> active_;
     ImageUse images_;
 };
+
+/// Texts that are compiled one by one meet here for the first time.
+void checkVaryings(const std::vector<Varying>& written, const std::vector<Varying>& read, Problems& problems) {
+    for (const Varying& input : read) {
+        const auto output =
+            std::find_if(written.begin(), written.end(), [&](const Varying& v) { return v.name == input.name; });
+        if (!input.active || input.name.empty() || output == written.end() || output->type == input.type) continue;
+        problems.error(input.where,
+                       fmt::format("varying '{}' is a {} here, but a {} in the vertex program", input.name, input.type,
+                                   output->type),
+                       "give both the same type", {{output->where, "the vertex program's"}});
+    }
+}
 
 }  // namespace
 
@@ -243,9 +277,16 @@ const ShaderResource* ShaderInfo::find(std::string_view name) const {
 ShaderInfo reflectStages(const std::vector<StageCode>& code, const std::vector<StageSource>& sources,
                          Problems& problems) {
     ShaderInfo info;
-    for (const StageCode& stage : code)
-        for (const StageSource& source : sources)
-            if (source.stage == stage.stage) StageReflection(stage, source, info, problems).run();
+    std::vector<Varying> written, read;
+    for (const StageCode& stage : code) {
+        for (const StageSource& source : sources) {
+            if (source.stage != stage.stage) continue;
+            StageReflection reflection(stage, source, info, problems);
+            reflection.run();
+            if (source.numbered) (stage.stage == kVertexBit ? written : read) = std::move(reflection.varyings);
+        }
+    }
+    checkVaryings(written, read, problems);
     std::sort(info.resources.begin(), info.resources.end(),
               [](const auto& a, const auto& b) { return a.slot < b.slot; });
     return info;

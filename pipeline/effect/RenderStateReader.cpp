@@ -146,15 +146,32 @@ void readStencil(KeyReader& reader, const std::string& side, StencilFace& face) 
     readEnum(reader, ("stencilPassOp" + side).c_str(), kStencilOps, face.passOp);
 }
 
+/// What is written without a side holds for both, whatever else is written: so does Cocos' compiler have it.
+void copyStencil(KeyReader& reader, const StencilFace& both, StencilFace& face) {
+    const auto copy = [&](const char* key, auto StencilFace::*member) {
+        if (const Value* value = reader.find(key); value != nullptr && !value->isNull()) face.*member = both.*member;
+    };
+    copy("stencilTest", &StencilFace::test);
+    copy("stencilFunc", &StencilFace::func);
+    copy("stencilReadMask", &StencilFace::readMask);
+    copy("stencilWriteMask", &StencilFace::writeMask);
+    copy("stencilRef", &StencilFace::ref);
+    copy("stencilFailOp", &StencilFace::failOp);
+    copy("stencilZFailOp", &StencilFace::zFailOp);
+    copy("stencilPassOp", &StencilFace::passOp);
+}
+
 void readDepthStencil(KeyReader& reader, RenderState& state) {
     readBool(reader, "depthTest", state.depthTest);
     readBool(reader, "depthWrite", state.depthWrite);
     readEnum(reader, "depthFunc", kCompareOps, state.depthFunc);
     if (!reader.strict()) {
-        readStencil(reader, "", state.stencilFront);
-        state.stencilBack = state.stencilFront;
         readStencil(reader, "Front", state.stencilFront);
         readStencil(reader, "Back", state.stencilBack);
+        StencilFace both;
+        readStencil(reader, "", both);
+        copyStencil(reader, both, state.stencilFront);
+        copyStencil(reader, both, state.stencilBack);
         return reader.finish();
     }
     // Without a suffix a key stands for both faces.
@@ -170,16 +187,17 @@ void readDepthStencil(KeyReader& reader, RenderState& state) {
     reader.finish();
 }
 
-/// "rgb": letters one after the other, as some of Cocos' files have them.
+/// "rgb" or "r | g": letters one after the other, as some of Cocos' files have them.
 bool readMaskLetters(const std::string& word, std::uint8_t& mask) {
     std::uint8_t sum = 0;
     for (const char c : word) {
+        if (c == '|' || c == ' ') continue;
         const auto at = std::string_view("rgba").find(c);
         if (at == std::string_view::npos) return false;
         sum = static_cast<std::uint8_t>(sum | (1u << at));
     }
-    mask = sum;
-    return !word.empty();
+    if (sum != 0) mask = sum;
+    return sum != 0;
 }
 
 void readColorMask(KeyReader& reader, std::uint8_t& mask) {

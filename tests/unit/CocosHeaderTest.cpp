@@ -80,10 +80,10 @@ TEST_F(CocosHeader, PassKeys) {
     EXPECT_EQ(read.embeddedMacros, (std::map<std::string, std::string>{
                                        {"CC_FORWARD_ADD", "1"}, {"CC_PIPELINE_TYPE", "1"}, {"WORD", "v_uv"}}));
     EXPECT_TRUE(read.state.depthTest);  // Not a key of a pass: read by nobody.
-    std::vector<std::string> verbose;
+    std::vector<std::string> notes;
     for (const Problem& problem : problems.all())
-        if (problem.severity == Severity::Verbose) verbose.push_back(problem.message);
-    EXPECT_THAT(verbose, ElementsAre("key 'unheardOf' in a pass is not read", "key 'depthTest' in a pass is not read"));
+        if (problem.severity == Severity::Note) notes.push_back(problem.message);
+    EXPECT_THAT(notes, ElementsAre("key 'unheardOf' in a pass is not read", "key 'depthTest' in a pass is not read"));
 }
 
 TEST_F(CocosHeader, DefaultsAreCocos) {
@@ -138,6 +138,34 @@ TEST_F(CocosHeader, EnumsInAnyCaseOrAsNumbers) {
     EXPECT_EQ(firstError(), "'sideways' is no value for 'cullMode'");
 }
 
+TEST_F(CocosHeader, UnknownKeysOfStatesAreNamed) {
+    pass(
+        "      rasterizerState: { cullmode: none }\n      depthStencilState: { depthTest: true, depthwrite: false }\n"
+        "      blendState: { target: [], targets: [ { blend: true, blendSource: one } ] }\n"
+        "      properties: { a: { value: 1, unheardOf: 2, editor: { elevated: true } } }\n");
+    std::vector<std::string> notes;
+    for (const Problem& problem : problems.all())
+        if (problem.severity == Severity::Note) notes.push_back(problem.message);
+    EXPECT_THAT(notes, ElementsAre("key 'cullmode' in 'rasterizerState' is not read",
+                                   "key 'depthwrite' in 'depthStencilState' is not read",
+                                   "key 'blendSource' in a blend target is not read",
+                                   "key 'target' in 'blendState' is not read"));
+    EXPECT_EQ(problems.all().front().where.line, 6);
+}
+
+TEST_F(CocosHeader, ColourMasksAreWordsLettersAndNumbers) {
+    const auto maskOf = [&](const std::string& word) {
+        const auto targets =
+            pass("      blendState: { targets: [ { blendColorMask: " + word + " } ] }\n").state.blendTargets;
+        return targets.empty() ? -1 : int(targets[0].colorMask);
+    };
+    const std::pair<const char*, int> masks[] = {{"none", 0}, {"ALL", 15}, {"r", 1},    {"G", 2},      {"b", 4},
+                                                 {"a", 8},    {"rg", 3},   {"gba", 14}, {"RGB", 7},    {"rgba", 15},
+                                                 {"9", 9},    {"0xf", 15}, {"r|g", 3},  {"'R | A'", 9}};
+    for (const auto& [word, mask] : masks) EXPECT_EQ(maskOf(word), mask) << word;
+    EXPECT_EQ(firstError(), "");
+}
+
 TEST_F(CocosHeader, StencilShorthandsSetBothSides) {
     const RenderState state =
         pass(
@@ -147,10 +175,19 @@ TEST_F(CocosHeader, StencilShorthandsSetBothSides) {
             "        stencilFailOp: incr_wrap\n        stencilZFailOp: decr\n        stencilRefBack: 3\n"
             "        stencilFuncFront: equal\n")
             .state;
-    EXPECT_EQ(state.stencilFront, (StencilFace{true, CompareOp::Equal, 0xff, 15, 0x80, StencilOp::IncrWrap,
-                                               StencilOp::Decr, StencilOp::Replace}));
-    EXPECT_EQ(state.stencilBack, (StencilFace{true, CompareOp::NotEqual, 0xff, 15, 3, StencilOp::IncrWrap,
-                                              StencilOp::Decr, StencilOp::Replace}));
+    // What is written for a side beside them counts for nothing.
+    const StencilFace both{
+        true, CompareOp::NotEqual, 0xff, 15, 0x80, StencilOp::IncrWrap, StencilOp::Decr, StencilOp::Replace};
+    EXPECT_EQ(state.stencilFront, both);
+    EXPECT_EQ(state.stencilBack, both);
+    const RenderState sides =
+        pass("      depthStencilState: { stencilTestFront: true, stencilRefBack: 3, stencilPassOp: zero }\n").state;
+    EXPECT_TRUE(sides.stencilFront.test);
+    EXPECT_FALSE(sides.stencilBack.test);
+    EXPECT_EQ(sides.stencilFront.ref, 1u);
+    EXPECT_EQ(sides.stencilBack.ref, 3u);
+    EXPECT_EQ(sides.stencilFront.passOp, StencilOp::Zero);
+    EXPECT_EQ(sides.stencilBack.passOp, StencilOp::Zero);
 }
 
 TEST_F(CocosHeader, PropertiesOfEveryKind) {

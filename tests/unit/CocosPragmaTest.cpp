@@ -88,7 +88,8 @@ TEST(CocosPragma, WhatIsComparedIsANumberFromZeroToThree) {
         "#pragma define-meta PICK options([a, b])\n#if PICK == 1\n#endif\n"
         "#if TWICE + 1 == 2\n#endif\n#if BOOL\n#elif defined(ONLY)\n#endif\n");
     const StageText text = bench.fragmentText();
-    for (const char* name : {"FORMAT", "LEVEL", "STEPS", "OTHER", "BARE", "LATE"}) {
+    // The name in front of the comparison, whatever stands between; `!=` is none for Cocos' compiler.
+    for (const char* name : {"FORMAT", "LEVEL", "BARE", "LATE", "TWICE"}) {
         const DefineInfo& info = macroOf(text, name).info;
         EXPECT_EQ(info.type, DefineType::Number) << name;
         EXPECT_EQ(info.range, (std::pair{0, 3})) << name;
@@ -96,7 +97,7 @@ TEST(CocosPragma, WhatIsComparedIsANumberFromZeroToThree) {
     }
     EXPECT_EQ(macroOf(text, "TAGGED").info.range, (std::pair{0, 8}));
     EXPECT_EQ(macroOf(text, "PICK").info.type, DefineType::String);
-    for (const char* name : {"USE_A", "FLAG", "TWICE", "BOOL", "ONLY"})
+    for (const char* name : {"USE_A", "FLAG", "STEPS", "OTHER", "BOOL", "ONLY"})
         EXPECT_EQ(macroOf(text, name).info.type, DefineType::Bool) << name;
 }
 
@@ -150,7 +151,8 @@ TEST(CocosPragma, LinesKnowTheirConditions) {
     CocosBench bench;
     bench.fragment(
         "float none;\n#if USE_A\nfloat a;\n#if USE_B && !USE_C\nfloat ab;\n#endif\n#elif USE_D\nfloat d;\n#else\n"
-        "float neither;\n#endif\n#ifndef USE_E\nfloat e;\n#endif\n#if __VERSION__ >= 300\nfloat version;\n#if USE_A\n"
+        "float neither;\n#endif\n#if USE_A && !USE_B\n#else\nfloat not_both;\n#endif\n#ifndef USE_E\nfloat "
+        "e;\n#endif\n#if __VERSION__ >= 300\nfloat version;\n#if USE_A\n"
         "float inVersion;\n#endif\n#endif\n#if USE_A || USE_B\nfloat either;\n#else\nfloat not_either;\n#endif\n"
         "#if MODE == 3\nfloat mode;\n#else\nfloat other_mode;\n#endif\nfloat after;\n");
     const StageText text = bench.fragmentText();
@@ -159,11 +161,12 @@ TEST(CocosPragma, LinesKnowTheirConditions) {
     EXPECT_THAT(conditionsAt(text, "float ab;"), ElementsAre("USE_A", "USE_B", "!USE_C"));
     EXPECT_THAT(conditionsAt(text, "float d;"), ElementsAre("!USE_A", "USE_D"));
     EXPECT_THAT(conditionsAt(text, "float neither;"), ElementsAre("!USE_A", "!USE_D"));
+    EXPECT_THAT(conditionsAt(text, "float not_both;"), ElementsAre("!USE_A", "USE_B"));
     EXPECT_THAT(conditionsAt(text, "float e;"), ElementsAre("!USE_E"));
     EXPECT_THAT(conditionsAt(text, "float version;"), IsEmpty());
     EXPECT_THAT(conditionsAt(text, "float inVersion;"), ElementsAre("USE_A"));
     EXPECT_THAT(conditionsAt(text, "float either;"), IsEmpty());
-    EXPECT_THAT(conditionsAt(text, "float not_either;"), ElementsAre("!USE_A", "!USE_B"));
+    EXPECT_THAT(conditionsAt(text, "float not_either;"), IsEmpty());
     EXPECT_THAT(conditionsAt(text, "float mode;"), ElementsAre("MODE"));
     EXPECT_THAT(conditionsAt(text, "float other_mode;"), ElementsAre("!MODE"));
     EXPECT_THAT(conditionsAt(text, "float after;"), IsEmpty());
@@ -318,16 +321,25 @@ TEST(CocosCondition, VersionDecides) {
     EXPECT_EQ(decideByVersion(""), std::nullopt);
 }
 
-TEST(CocosCondition, SimpleNeedsAreKept) {
+TEST(CocosCondition, WordsAreKept) {
     const NameLookup outside = [](std::string_view, bool) { return ConditionName{}; };
-    EXPECT_THAT(readCondition("A && !B && defined(C)", outside).needs, ElementsAre("A", "!B", "C"));
-    EXPECT_THAT(readCondition("!(A)", outside).needs, ElementsAre("!A"));
-    EXPECT_THAT(readCondition("!!A", outside).needs, ElementsAre("A"));
-    EXPECT_THAT(readCondition("A == 2", outside).needs, ElementsAre("A"));
-    EXPECT_THAT(readCondition("A || B", outside).needs, IsEmpty());
-    EXPECT_THAT(readCondition("A || __VERSION__ < 300", outside).needs, ElementsAre("A"));
-    EXPECT_THAT(negate(readCondition("A || B", outside)).needs, ElementsAre("!A", "!B"));
-    EXPECT_THAT(negate(readCondition("A && B", outside)).needs, IsEmpty());
+    const auto needs = [&](std::string_view text) { return keepNames(text, outside).needs; };
+    EXPECT_THAT(needs("A && !B && defined(C)"), ElementsAre("A", "!B", "C"));
+    EXPECT_THAT(needs("defined D && !defined(E)"), ElementsAre("D", "!E"));
+    EXPECT_THAT(needs("!(A)"), ElementsAre("!A"));
+    EXPECT_THAT(needs("(!A)"), ElementsAre("A"));  // The word does not begin with the sign.
+    EXPECT_THAT(needs("A&&B"), ElementsAre("A"));  // One word, one name.
+    EXPECT_THAT(needs("A == 2"), ElementsAre("A"));
+    EXPECT_THAT(needs("A && (B || C)"), IsEmpty());
+    EXPECT_THAT(needs("A || __VERSION__ < 300"), IsEmpty());
+    EXPECT_THAT(needs("__VERSION__ < 300 && A"), ElementsAre("A"));
+    EXPECT_THAT(needs("1 == 2"), IsEmpty());
+    EXPECT_THAT(needs(""), IsEmpty());
+    const auto compared = [&](std::string_view text) { return keepNames(text, outside).compared; };
+    EXPECT_THAT(compared("A == 2 && B <= C"), ElementsAre("A", "B"));
+    EXPECT_THAT(compared("A != 2 && 1 < B"), ElementsAre("A"));  // The name before it, from whichever part.
+    EXPECT_THAT(compared("A==2"), IsEmpty());
+    EXPECT_THAT(turnRound({"A", "!B"}), ElementsAre("!A", "B"));
 }
 
 }  // namespace

@@ -210,9 +210,9 @@ TEST(CocosReflection, PassesWithNumbersForWords) {
               parseJson(R"({"phase":"shadow-add","propertyIndex":0,"switch":"USE_OUTLINE","priority":245,"primitive":1,
                   "embeddedMacros":{"CC_FORWARD_ADD":true,"CC_PIPELINE_TYPE":1},"rasterizerState":{"cullMode":1},
                   "depthStencilState":{"depthTest":false,"depthFunc":3,"stencilTestFront":true,"stencilFuncFront":5,
-                    "stencilPassOpFront":2,"stencilRefFront":128,"stencilRefBack":1},
+                    "stencilPassOpFront":2,"stencilRefBack":128,"stencilRefFront":128},
                   "blendState":{"targets":[{"blend":true,"blendSrc":2,"blendDst":4,"blendEq":4,"blendColorMask":0}]},
-                  "program":"x|a|b"})",
+                  "unknown":1,"program":"x|a|b"})",
                         "expected")
                   .toJson(-1));
 }

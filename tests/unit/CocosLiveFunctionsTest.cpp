@@ -1,0 +1,92 @@
+// Functions that an entry does not reach: their macros are not the shader's, their text is not compiled.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "CocosFrontTools.h"
+#include "cocos/LiveFunctions.h"
+
+namespace crevice::cocos {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::Not;
+
+std::vector<std::string> dead(std::string_view text, const MacroBodies& macros = {}, std::string_view entry = "main") {
+    std::vector<std::string> names;
+    for (const FunctionRange& function : findDeadFunctions(text, entry, macros)) names.emplace_back(function.name);
+    return names;
+}
+
+TEST(CocosLiveFunctions, ReachedByCallsOverSeveralSteps) {
+    EXPECT_THAT(dead("float a() { return 1.0; }\nfloat b() { return a(); }\nfloat c(float x) { return b() + x; }\n"
+                     "float d() { return c(1.0); }\nvoid main() { b(); }\n"),
+                ElementsAre("c", "d"));
+}
+
+TEST(CocosLiveFunctions, OverloadsLiveTogether) {
+    EXPECT_THAT(dead("float f(float x) { return x; }\nvec2 f(vec2 x) { return x; }\nvoid main() { f(1.0); }\n"
+                     "float g() { return f(2.0); }\n"),
+                ElementsAre("g"));
+}
+
+TEST(CocosLiveFunctions, ACallInAnyBranchCounts) {
+    EXPECT_THAT(dead("float a() { return 1.0; }\nfloat b() { return 2.0; }\n#if A\nfloat c() { return 3.0; }\n#endif\n"
+                     "void main() {\n#if A\n  a();\n#elif B\n  b();\n#endif\n}\n"),
+                ElementsAre("c"));
+}
+
+TEST(CocosLiveFunctions, MacrosLeadOn) {
+    const std::string text =
+        "#define READ(x) unpack(x)\n#define OLD(x) forgotten(x)\nfloat unpack(float x) { return x; }\n"
+        "float forgotten(float x) { return x; }\nvoid main() { READ(1.0); }\n";
+    EXPECT_THAT(dead(text, {{"READ", {"unpack(x)"}}, {"OLD", {"forgotten(x)"}}}), ElementsAre("forgotten"));
+    EXPECT_THAT(dead(text, {{"READ", {"un##x(x)"}}}), IsEmpty());  // Any name may be meant.
+}
+
+TEST(CocosLiveFunctions, InitialValuesCallAndPrototypesDoNot) {
+    EXPECT_THAT(dead("float used();\nfloat unused();\nfloat used() { return 1.0; }\nfloat unused() { return 1.0; }\n"
+                     "float global = used();\nvoid main() {}\n"),
+                ElementsAre("unused"));
+}
+
+TEST(CocosLiveFunctions, TypesAndListsOverSeveralLines) {
+    const std::string text =
+        "layout(location = 0) out vec4 color;\nstruct S { vec4 a; };\nuniform Block { vec4 v; };\n"
+        "highp vec4 fetch(\n  sampler2D map\n#if A\n  , vec2 uv\n#endif\n)\n{\n  return v;\n}\nvoid main() {}\n";
+    const auto found = findDeadFunctions(text, "main", {});
+    ASSERT_EQ(found.size(), 1u);
+    EXPECT_EQ(found[0].name, "fetch");
+    EXPECT_EQ(text.substr(found[0].begin, 10), "highp vec4");
+    EXPECT_EQ(text[found[0].end - 1], '}');
+    EXPECT_EQ(found[0].firstLine, 3u);
+    EXPECT_EQ(found[0].lastLine, 11u);
+}
+
+TEST(CocosLiveFunctions, WhatCannotBeToldStays) {
+    EXPECT_THAT(dead("float a() { return 1.0; }\nfloat b() { return 1.0; }\n"), IsEmpty());  // no main
+    EXPECT_THAT(dead("#if A\nfloat a() {\n#else\nfloat b() {\n#endif\n return 1.0; }\nvoid main() {}\n"), IsEmpty());
+    EXPECT_THAT(dead("float a() {\n#if A\n return 1.0; }\n#else\n return 2.0; }\n#endif\nvoid main() {}\n"), IsEmpty());
+    EXPECT_THAT(dead("float a()\n#if A\n#endif\n{ return 1.0; }\nvoid main() {}\n"), IsEmpty());
+    EXPECT_THAT(dead("float a() {\n#define KEPT 1\nreturn 1.0; }\nvoid main() { int i = KEPT; }\n"), IsEmpty());
+    EXPECT_THAT(dead("float a( { return 1.0; }\nvoid main() {}\n"), IsEmpty());
+}
+
+TEST(CocosLiveFunctions, TheirMacrosAreNotTheShaders) {
+    CocosBench bench;
+    bench.fragment(
+        "#if USE_AROUND\nfloat away() {\n#if USE_WITHIN\n#pragma define-meta USE_TOLD\n  return missing;\n#endif\n"
+        "  return gone; }\n#endif\nfloat near() {\n#if USE_NEAR\n  return 1.0;\n#endif\n  return 2.0; }\n"
+        "layout(location = 0) out vec4 color;\nvoid main() { color = vec4(near()); }\n");
+    const StageText text = bench.fragmentText();
+    EXPECT_THAT(macroNames(text), ElementsAre("USE_AROUND", "USE_NEAR"));
+    EXPECT_THAT(text.flat.text, Not(HasSubstr("away")));
+    const auto lines = static_cast<std::size_t>(std::count(text.flat.text.begin(), text.flat.text.end(), '\n'));
+    EXPECT_EQ(lines, text.flat.lines.size());
+    bench.compile({{"USE_AROUND", "1"}});  // although `gone` is declared nowhere
+    bench.compile({{"USE_NEAR", "1"}});
+}
+
+}  // namespace
+}  // namespace crevice::cocos
