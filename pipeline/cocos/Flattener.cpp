@@ -7,6 +7,7 @@
 #include <optional>
 #include <unordered_map>
 
+#include "cocos/FlatOutput.h"
 #include "cocos/IncludedTexts.h"
 #include "cocos/MacroCall.h"
 #include "cocos/MacroTable.h"
@@ -17,7 +18,7 @@ namespace {
 
 using Origin = FlatSource::Origin;
 
-class Flattener {
+class Flattener : private FlatOutput {
 public:
     Flattener(const EffectAsset& effect, ChunkLibrary& chunks, const FlattenLimits& limits, Problems& problems)
         : effect_(effect), chunks_(chunks), limits_(limits), problems_(problems) {}
@@ -69,28 +70,18 @@ private:
         if (line.macro >= 0) {
             emitDefinition(lines, at, lines.source.macros[static_cast<std::size_t>(line.macro)]);
         } else if (line.span > 1) {
-            std::string joined;
-            for (std::size_t i = at; i < next; ++i) {
-                std::string_view part = lines.text(i);
-                if (const auto last = part.rfind('\\'); i + 1 < next || part.ends_with('\\'))
-                    part = part.substr(0, last);
-                joined.append(part).push_back(' ');
-            }
-            emitDirective(joined, lines.origin(at), lines.source);
+            emitDirective(joinDirective(lines, at, next), lines.origin(at), lines.source);
         } else {
             emitDirective(line.text, lines.origin(at), lines.source);
         }
         return next;
     }
 
-    /// The macro that says which definition holds, 1 for the first.
-    static std::string choiceOf(std::string_view name) { return fmt::format("crevice_choice_{}", name); }
-
     void noteChoice(const MacroDefinition& macro, Origin origin) {
-        auto& choices = choices_[macro.name];
-        choices.push_back(&macro);
-        emitDirective(fmt::format("#undef {}", choiceOf(macro.name)), origin, *macro.source);
-        emitDirective(fmt::format("#define {} {}", choiceOf(macro.name), choices.size()), origin, *macro.source);
+        choices_[macro.name].push_back(&macro);
+        const std::string name = choiceOf(macro.name);
+        emitDirective("#undef " + name, origin, *macro.source);
+        emitDirective(fmt::format("#define {} {}", name, choices_[macro.name].size()), origin, *macro.source);
     }
 
     /// A preprocessor line in one piece: of a text, or of a macro's body.
@@ -119,10 +110,8 @@ private:
         if (macro.fromPragma) return;  // Hoisted by the analysis.
         if (expanded) return push(fmt::format("#define {0} {0}", macro.name), origin);
         for (std::size_t i = at; i < at + line.span; ++i) {
-            if (macro.adoptsNextLine && i == at)
-                push(std::string(lines.text(i)) + " \\", lines.origin(i));
-            else
-                push(lines.text(i), lines.origin(i));
+            const bool adopts = macro.adoptsNextLine && i == at;
+            push(std::string(lines.text(i)) + (adopts ? " \\" : ""), lines.origin(i));
         }
     }
 
@@ -161,8 +150,8 @@ private:
             std::find(out_.extensions.begin(), out_.extensions.end(), read.extension) == out_.extensions.end())
             out_.extensions.push_back(std::move(read.extension));
         if (read.meta) {
+            read.meta->info.where = place(line, origin);
             out_.metas.push_back(std::make_unique<StageMacro>(std::move(*read.meta)));
-            out_.metas.back()->info.where = place(line, origin);
             out_.directives.push_back({LineKind::Pragma, lineCount(), 0, 0, nullptr, out_.metas.back().get(), origin});
         }
         if (!read.mark) return;
@@ -211,9 +200,8 @@ private:
             if (!active && macro->functionLike)
                 arguments = readArguments(lines, at + used - 1, call + name.size(), limits_.maxArgument);
             if (active || (macro->functionLike && !arguments.found)) {
-                if (arguments.unclosed) {
-                    reportUnclosed(name, where);
-                }
+                if (arguments.unclosed) reportUnclosed(name, where, problems_);
+                stopped_ = stopped_ || arguments.unclosed;
                 keep(call + name.size());
                 continue;
             }
@@ -223,7 +211,7 @@ private:
                 text = lines.text(arguments.line);
                 from = arguments.end;
                 if (!matchArguments(*macro, arguments.values)) {
-                    reportArguments(*macro, arguments.values.size(), where);
+                    reportArguments(*macro, arguments.values.size(), where, problems_);
                     continue;
                 }
             }
@@ -257,7 +245,8 @@ private:
         if (std::any_of(choices.begin(), choices.end(), [](const auto* macro) { return macro->functionLike; }))
             arguments = readArguments(lines, at, call + name.size(), limits_.maxArgument);
         if (arguments.unclosed) {
-            reportUnclosed(name, callPlace_);
+            reportUnclosed(name, callPlace_, problems_);
+            stopped_ = true;  // The next would look through as many lines again.
             from = call + name.size();
             return at;
         }
@@ -301,25 +290,13 @@ private:
         }
         std::vector<std::string> values = arguments.values;
         if (macro.functionLike && !matchArguments(macro, values)) {
-            reportArguments(macro, values.size(), callPlace_);
+            reportArguments(macro, values.size(), callPlace_, problems_);
             return false;
         }
         const bool ended = expand(macro, macro.functionLike ? values : std::vector<std::string>{}, origin, pending);
         if (macro.functionLike || !arguments.found) return ended;
         pending.text += fmt::format("({})", fmt::join(arguments.values, ", "));
         return false;
-    }
-
-    void reportUnclosed(std::string_view name, const SourceLoc& where) {
-        problems_.error(where, fmt::format("the call of macro '{}' is not closed", name), "a ')' is missing");
-        stopped_ = true;  // The next would look through as many lines again.
-    }
-
-    void reportArguments(const MacroDefinition& macro, std::size_t given, const SourceLoc& where) {
-        problems_.error(
-            where,
-            fmt::format("macro '{}' takes {} arguments, {} are given", macro.name, macro.parameters.size(), given),
-            "give each parameter one");
     }
 
     /// Writes a macro's body. True when its last line was a preprocessor line.
@@ -348,13 +325,13 @@ private:
         for (std::size_t i = 0; i < lines.texts.size() && !stopped_;) {
             endsInDirective = readDirective(lines.texts[i]).kind != LineKind::Code;
             if (!single) flush(pending);
-            if (endsInDirective) emitDirective(lines.texts[i], lines.origins[i], *macro.source);
             if (endsInDirective) {
+                emitDirective(lines.texts[i], lines.origins[i], *macro.source);
                 ++i;
-                continue;
+            } else {
+                i += expandLine(lines, i, pending);
+                endsInDirective = endedInDirective_;
             }
-            i += expandLine(lines, i, pending);
-            endsInDirective = endedInDirective_;
         }
         if (!single) flush(pending);
         if (outermost) expandedFrom_.reset();
@@ -368,10 +345,7 @@ private:
     }
 
     void push(std::string_view line, Origin origin) {
-        if (expandedFrom_ && (origin.file != expandedFrom_->file || origin.line != expandedFrom_->line))
-            out_.flat.calls.emplace(static_cast<int>(lineCount()) + 1, *expandedFrom_);
-        out_.flat.text.append(line).push_back('\n');
-        out_.flat.lines.push_back(origin);
+        write(line, origin, expandedFrom_);
         if (out_.flat.text.size() > limits_.maxBytes)
             stop(line, origin, fmt::format("the flattened stage is larger than {} MB", limits_.maxBytes >> 20));
     }
@@ -395,31 +369,11 @@ private:
         problems_.error(place(line, origin), std::move(message), std::move(help));
     }
 
-    SourceLoc placeAt(std::string_view line, std::size_t at, std::size_t length, Origin origin) const {
-        return {out_.flat.files[origin.file], origin.line, int(std::min(at, line.size())) + 1, int(length)};
-    }
-
-    SourceLoc place(std::string_view line, Origin origin) const {
-        const auto begin = std::min(line.find_first_not_of(" \t"), line.size());
-        return {out_.flat.files[origin.file], origin.line, static_cast<int>(begin) + 1,
-                static_cast<int>(std::max<std::size_t>(1, std::min<std::size_t>(200, trimBlank(line).size())))};
-    }
-
-    std::uint32_t lineCount() const { return static_cast<std::uint32_t>(out_.flat.lines.size()); }
-
-    std::uint32_t fileIndex(const std::string& file) {
-        const auto [it, isNew] = fileIndices_.try_emplace(file, static_cast<std::uint32_t>(out_.flat.files.size()));
-        if (isNew) out_.flat.files.push_back(file);
-        return it->second;
-    }
-
     const EffectAsset& effect_;
     ChunkLibrary& chunks_;
     const FlattenLimits& limits_;
     Problems& problems_;
     const MacroTable* table_ = nullptr;
-    Flattened out_;
-    std::unordered_map<std::string, std::uint32_t> fileIndices_;
     std::unordered_map<std::string_view, const MacroDefinition*> latest_;  ///< As the text has defined them so far.
     std::unordered_map<std::string_view, std::vector<const MacroDefinition*>> choices_;  ///< Likewise, where several.
     std::vector<std::string_view> chosen_;  ///< Whose definition is chosen for the text that is being written.

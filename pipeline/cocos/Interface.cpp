@@ -11,6 +11,7 @@
 #include "cocos/BlockRules.h"
 #include "cocos/GlslStatements.h"
 #include "cocos/GlslTypes.h"
+#include "cocos/Pragmas.h"
 #include "cocos/TextConstants.h"
 
 namespace crevice::cocos {
@@ -99,7 +100,6 @@ private:
     StageInterface result_;
     std::map<std::string_view, std::int64_t> structs_;  ///< Locations that a struct takes.
     std::size_t nextMark_ = 0, nextSubpass_ = 0;
-    int attachments_ = 0;
 };
 
 /// `[N][M]` behind a name or a type. `at` ends behind it.
@@ -356,7 +356,7 @@ void InterfaceReader::addSubpassInputs(int line) {
     for (; nextSubpass_ < stage_.marks.size() && stage_.marks[nextSubpass_].line < line; ++nextSubpass_) {
         const PragmaMark& mark = stage_.marks[nextSubpass_];
         const bool subpass = mark.kind == PragmaMark::Kind::SubpassColor || mark.kind == PragmaMark::Kind::SubpassDepth;
-        if (!subpass || mark.value == "out" || mark.name.empty()) continue;
+        if (!subpass || mark.name.empty()) continue;
         InterfaceStatement where;
         where.fromPragma = true;
         for (int i = 1; i < mark.line && where.begin != std::string::npos; ++i)
@@ -365,15 +365,17 @@ void InterfaceReader::addSubpassInputs(int line) {
         if (mark.line > 1) ++where.begin;
         where.end = where.storage = where.begin;
         result_.statements.push_back(where);
-        InterfaceDeclaration input;
-        input.kind = InterfaceKind::SubpassInput;
-        input.name = mark.name;
-        input.type = "subpassInput";
-        input.literal.attachment = attachments_++;
-        input.conditions = conditionsAt(mark.line);
-        input.where = stage_.flat.locate(mark.line);
-        input.statement = result_.statements.size() - 1;
-        result_.declarations.push_back(std::move(input));
+        const bool output = mark.value != "in";
+        const std::string prefix = mark.scalar == 'f' ? "" : std::string(1, mark.scalar);
+        InterfaceDeclaration declared;
+        declared.kind = output ? InterfaceKind::Output : InterfaceKind::SubpassInput;
+        declared.name = mark.name;
+        declared.type = prefix + (output ? "vec4" : "subpassInput");
+        (output ? declared.literal.location : declared.literal.attachment) = subpassNumber(stage_.marks, mark, output);
+        declared.conditions = conditionsAt(mark.line);
+        declared.where = stage_.flat.locate(mark.line);
+        declared.statement = result_.statements.size() - 1;
+        result_.declarations.push_back(std::move(declared));
     }
 }
 

@@ -58,9 +58,10 @@ private:
     void writeStatement(const InterfaceStatement& where, std::size_t first, std::size_t end) {
         const InterfaceDeclaration& declaration = interface_.declarations[first];
         if (where.fromPragma) {
-            edits_.push_back(
-                {where.begin, 0,
-                 fmt::format("{}uniform subpassInput {};", layoutText(numbers_[first], ""), declaration.name)});
+            edits_.push_back({where.begin, 0,
+                              fmt::format("{}{} {} {};", layoutText(numbers_[first], ""),
+                                          declaration.kind == InterfaceKind::Output ? "out" : "uniform",
+                                          declaration.type, declaration.name)});
         } else if (where.declarators.size() > 1) {
             splitStatement(where, first, end);
         } else {

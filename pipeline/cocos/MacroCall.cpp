@@ -1,6 +1,8 @@
 // Arguments and substitution.
 #include "cocos/MacroCall.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 namespace crevice::cocos {
@@ -31,6 +33,26 @@ std::vector<std::string> ArgumentReader::take() {
 bool matchArguments(const MacroDefinition& macro, std::vector<std::string>& arguments) {
     if (macro.parameters.empty() && arguments.size() == 1 && arguments[0].empty()) arguments.clear();
     return arguments.size() == macro.parameters.size();
+}
+
+void reportUnclosed(std::string_view macro, const SourceLoc& where, Problems& problems) {
+    problems.error(where, fmt::format("the call of macro '{}' is not closed", macro), "a ')' is missing");
+}
+
+void reportArguments(const MacroDefinition& macro, std::size_t given, const SourceLoc& where, Problems& problems) {
+    problems.error(
+        where, fmt::format("macro '{}' takes {} arguments, {} are given", macro.name, macro.parameters.size(), given),
+        "give each parameter one");
+}
+
+std::string joinDirective(const SourceLines& lines, std::size_t first, std::size_t end) {
+    std::string joined;
+    for (std::size_t i = first; i < end; ++i) {
+        std::string_view part = lines.text(i);
+        if (const auto last = part.rfind('\\'); i + 1 < end || part.ends_with('\\')) part = part.substr(0, last);
+        joined.append(part).push_back(' ');
+    }
+    return joined;
 }
 
 std::string substitute(std::string_view body, const std::vector<std::string_view>& parameters,

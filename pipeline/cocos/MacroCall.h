@@ -80,6 +80,13 @@ CallArguments readArguments(const Lines& lines, std::size_t line, std::size_t at
 /// Fits the number of arguments: `f()` gives a macro without parameters none. False when they do not fit.
 bool matchArguments(const MacroDefinition& macro, std::vector<std::string>& arguments);
 
+/// An error at the call `where`.
+void reportUnclosed(std::string_view macro, const SourceLoc& where, Problems& problems);
+void reportArguments(const MacroDefinition& macro, std::size_t given, const SourceLoc& where, Problems& problems);
+
+/// A preprocessor line over several lines as one, without their backslashes.
+std::string joinDirective(const SourceLines& lines, std::size_t first, std::size_t end);
+
 /// Parameters replaced by arguments, `##` pasted.
 std::string substitute(std::string_view body, const std::vector<std::string_view>& parameters,
                        const std::vector<std::string>& arguments);

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <functional>
+#include <string>
 #include <string_view>
 #include <unordered_map>
 #include <unordered_set>
@@ -42,5 +43,8 @@ private:
     std::unordered_set<std::string_view> expanded_, chosen_;
     std::array<bool, 128> firstLetters_{};  ///< Of the expanded names: most words are passed over by one look.
 };
+
+/// The macro that says in a text which definition of a chosen one holds, 1 for the first.
+inline std::string choiceOf(std::string_view name) { return "crevice_choice_" + std::string(name); }
 
 }  // namespace crevice::cocos

@@ -144,16 +144,31 @@ Pragma makeMark(PragmaMark::Kind kind, std::string_view name, std::string_view v
     return pragma;
 }
 
-/// "in NAME": an input attachment.
-Pragma readSubpassInput(PragmaMark::Kind kind, std::string_view text) {
+/// "in NAME", "out highp NAME": an input attachment, or an output.
+Pragma readSubpass(std::string_view word, std::string_view text) {
+    const char scalar = word.starts_with('i') || word.starts_with('u') ? word.front() : 'f';
+    const bool color = word.ends_with("Color");
     const std::string_view direction = leadingName(text);
-    const std::string_view name = leadingName(trimBlank(text.substr(direction.size())));
-    if (name.empty()) {
-        Pragma pragma;
-        pragma.mistake = "the pragma names no subpass input";
+    text = trimBlank(text.substr(direction.size()));
+    std::string_view name = leadingName(text);
+    if (name == "highp" || name == "mediump" || name == "lowp") name = leadingName(trimBlank(text.substr(name.size())));
+    Pragma pragma;
+    const bool known = direction == "in" || (color && (direction == "out" || direction == "inout"));
+    if (name.empty() || !known) {
+        pragma.mistake = name.empty() && known
+                             ? "the pragma names no subpass input"
+                             : fmt::format("'#pragma {}' is not in{}", word, color ? ", out or inout" : "");
         return pragma;
     }
-    return makeMark(kind, name, direction);
+    pragma = makeMark(color ? PragmaMark::Kind::SubpassColor : PragmaMark::Kind::SubpassDepth, name, direction);
+    pragma.mark->scalar = scalar;
+    return pragma;
+}
+
+/// Is it `subpassColor`, `isubpassStencil`, …?
+bool isSubpass(std::string_view word) {
+    if (word.starts_with('i') || word.starts_with('u')) word.remove_prefix(1);
+    return word == "subpassColor" || word == "subpassDepth" || word == "subpassStencil";
 }
 
 }  // namespace
@@ -170,8 +185,7 @@ Pragma readPragma(std::string_view rest) {
         const std::string_view name = leadingName(tail);
         return makeMark(PragmaMark::Kind::Rate, name, leadingName(trimBlank(tail.substr(name.size()))));
     }
-    if (word == "subpassColor") return readSubpassInput(PragmaMark::Kind::SubpassColor, tail);
-    if (word == "subpassDepth") return readSubpassInput(PragmaMark::Kind::SubpassDepth, tail);
+    if (isSubpass(word)) return readSubpass(word, tail);
     const bool called = word == "builtin" || word == "extension" || word == "glBinding" || word == "format";
     if (!called) return {};
     Pragma pragma;
@@ -195,8 +209,29 @@ std::string_view pragmaExample(std::string_view rest) {
     if (word == "extension") return "write #pragma extension([NAME, __VERSION__ > 310, require])";
     if (word == "format") return "write #pragma format(RGBA8)";
     if (word == "glBinding") return "write #pragma glBinding(0)";
-    if (word.starts_with("subpass")) return "write #pragma subpassColor in NAME";
+    if (isSubpass(word)) return "write #pragma subpassColor in NAME";
     return "write such as: #pragma define-meta NAME range([0, 3]) | options([a, b]) default(a)";
+}
+
+int subpassNumber(const std::vector<PragmaMark>& marks, const PragmaMark& mark, bool output) {
+    const auto isDepth = [](const PragmaMark& m) { return m.kind == PragmaMark::Kind::SubpassDepth; };
+    // Read, then read and written, then written; within these colours first, by name.
+    const auto rank = [&](const PragmaMark& m) {
+        return (m.value == "in" ? 0 : m.value == "inout" ? 2 : 4) + (isDepth(m) ? 1 : 0);
+    };
+    int number = 0;
+    bool depth = false;
+    for (const PragmaMark& other : marks) {
+        if (!isDepth(other) && other.kind != PragmaMark::Kind::SubpassColor) continue;
+        if (output ? other.value == "in" : other.value == "out") continue;
+        const bool before = rank(other) != rank(mark) ? rank(other) < rank(mark)
+                            : rank(mark) == 4         ? other.line < mark.line
+                                                      : other.name < mark.name;
+        if (!before || (isDepth(other) && (isDepth(mark) || depth))) continue;  // Depth and stencil share one.
+        depth = depth || isDepth(other);
+        ++number;
+    }
+    return number;
 }
 
 }  // namespace crevice::cocos

@@ -23,4 +23,9 @@ Pragma readPragma(std::string_view rest);
 /// How a pragma that is written wrongly should look: a help.
 std::string_view pragmaExample(std::string_view rest);
 
+/// The input attachment, or with `output` the location, of a subpass pragma among all of a stage. Attachments count
+/// over inputs, colours by name and then depth, and behind them over colours that are read and written; locations over
+/// these and then over what is only written, as it stands.
+int subpassNumber(const std::vector<PragmaMark>& marks, const PragmaMark& mark, bool output);
+
 }  // namespace crevice::cocos

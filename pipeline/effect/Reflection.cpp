@@ -239,6 +239,7 @@ private:
             Varying varying{compiler_.get_name(r.id), typeName(compiler_.get_type(r.base_type_id)),
                             active_.contains(r.id), names_.declared(compiler_.get_name(r.id))};
             for (const std::uint32_t size : type.array) varying.type += fmt::format("[{}]", size);
+            if (numbered_) varying.where.column = 0;  // A layout() that the author did not write moved the name.
             varyings.push_back(std::move(varying));
         }
     }

@@ -179,6 +179,21 @@ TEST(CocosNumbering, SubpassInputsStandInTheirPragmasLine) {
               "depthMap;\nlayout(set = 1, binding = 0) uniform sampler2D a;\n");
 }
 
+TEST(CocosNumbering, SubpassPragmasCountByKindAndName) {
+    StageText stage = stageText(kFragmentBit, "precision highp float;\n\n\n\n\n\n\n");
+    using Kind = PragmaMark::Kind;
+    stage.marks = {{Kind::SubpassColor, "b", "in", 2},       {Kind::SubpassDepth, "stencil", "in", 3, 'i'},
+                   {Kind::SubpassDepth, "depth", "in", 4},   {Kind::SubpassColor, "a", "in", 5, 'u'},
+                   {Kind::SubpassColor, "second", "out", 6}, {Kind::SubpassColor, "both", "inout", 7}};
+    EXPECT_EQ(written({stage})[0],
+              "precision highp float;\n"
+              "layout(input_attachment_index = 1, set = 1, binding = 0) uniform subpassInput b;\n"
+              "layout(input_attachment_index = 2, set = 1, binding = 1) uniform isubpassInput stencil;\n"
+              "layout(input_attachment_index = 2, set = 1, binding = 2) uniform subpassInput depth;\n"
+              "layout(input_attachment_index = 0, set = 1, binding = 3) uniform usubpassInput a;\n"
+              "layout(location = 1) out vec4 second;\nlayout(location = 0) out vec4 both;\n");
+}
+
 TEST(CocosNumbering, ImageFormatsFromPragmas) {
     StageText stage = stageText(kComputeBit, "layout(local_size_x = 8) in;\n\nuniform image2D img;\n");
     stage.marks = {{PragmaMark::Kind::Format, "", "RGBA16F", 2}};

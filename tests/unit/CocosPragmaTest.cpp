@@ -202,6 +202,22 @@ TEST(CocosPragma, MarksSayWhatTheNextDeclarationIs) {
     EXPECT_THAT(text.flat.text, Not(HasSubstr("#pragma")));
 }
 
+TEST(CocosPragma, SubpassPragmasDeclareInputsAndOutputs) {
+    CocosBench bench;
+    bench.fragment(
+        "precision highp float;\n#pragma subpass\n#pragma subpassColor in highp albedo\n#pragma usubpassColor in ids\n"
+        "#pragma isubpassStencil in stencil\n#pragma subpassColor out mediump lit\n#pragma subpassColor out bright\n"
+        "void main() { lit = subpassLoad(albedo) + vec4(subpassLoad(ids)); bright = vec4(subpassLoad(stencil)); }\n");
+    EXPECT_THAT(bench.compileError(),
+                HasSubstr("'albedo' is a subpass input, which Crevice does not bind"));  // It compiles.
+    bench.fragment("#pragma subpassColor away x\n");
+    EXPECT_EQ(bench.problem().message, "'#pragma subpassColor' is not in, out or inout");
+    bench.fragment("#pragma subpassDepth out x\n");
+    EXPECT_EQ(bench.problem().message, "'#pragma subpassDepth' is not in");
+    bench.fragment("#pragma subpassColor in highp\n");
+    EXPECT_EQ(bench.problem().message, "the pragma names no subpass input");
+}
+
 TEST(CocosPragma, ExtensionsOfTheTargetGoToTheHead) {
     CocosBench bench;
     bench.fragment(

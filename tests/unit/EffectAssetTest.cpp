@@ -231,7 +231,7 @@ TEST(EffectAsset, TolerantReadingSkipsWhatStrictReadingRefuses) {
     const EffectAsset effect = parse(text, tolerant, EffectReading::Tolerant);
     EXPECT_EQ(strict.all().size(), 2u);
     ASSERT_EQ(tolerant.all().size(), 1u);
-    EXPECT_EQ(tolerant.all()[0].severity, Severity::Verbose);  // Said only when asked for details.
+    EXPECT_EQ(tolerant.all()[0].severity, Severity::Note);
     EXPECT_EQ(tolerant.all()[0].message, "key 'depthTest' in a pass is not read");
     EXPECT_EQ(effect.techniques[0].passes[0].state.depthFunc, CompareOp::Always);
 }
