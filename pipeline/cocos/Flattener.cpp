@@ -302,8 +302,7 @@ private:
     /// Writes a macro's body. True when its last line was a preprocessor line.
     bool expand(const MacroDefinition& macro, const std::vector<std::string>& arguments, Origin call,
                 Pending& pending) {
-        bool endsInDirective = false;
-        const bool outermost = !expandedFrom_;
+        bool endsInDirective = false, outermost = !expandedFrom_;
         if (outermost) {
             expandedFrom_ = call;
             before_ = {expansions_, written_};

@@ -2,6 +2,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
+#include <fstream>
 #include <set>
 #include <spirv_cross/spirv_cross.hpp>
 
@@ -239,7 +241,6 @@ private:
             Varying varying{compiler_.get_name(r.id), typeName(compiler_.get_type(r.base_type_id)),
                             active_.contains(r.id), names_.declared(compiler_.get_name(r.id))};
             for (const std::uint32_t size : type.array) varying.type += fmt::format("[{}]", size);
-            if (numbered_) varying.where.column = 0;  // A layout() that the author did not write moved the name.
             varyings.push_back(std::move(varying));
         }
     }
@@ -254,16 +255,33 @@ private:
     ImageUse images_;
 };
 
+/// The column of a name in the author's line: a layout() that nobody wrote has moved it in the text that was compiled.
+SourceLoc inAuthorsLine(SourceLoc where, const std::string& name) {
+    std::ifstream file(where.file, std::ios::binary);
+    std::string line;
+    for (int i = 0; i < where.line && std::getline(file, line);) ++i;
+    const auto isPart = [&](std::size_t i) {
+        return i < line.size() && (std::isalnum(static_cast<unsigned char>(line[i])) != 0 || line[i] == '_');
+    };
+    for (std::size_t at = line.find(name); at != std::string::npos; at = line.find(name, at + 1)) {
+        if ((at > 0 && isPart(at - 1)) || isPart(at + name.size())) continue;
+        where.column = static_cast<int>(at) + 1;
+        break;
+    }
+    return where;
+}
+
 /// Texts that are compiled one by one meet here for the first time.
 void checkVaryings(const std::vector<Varying>& written, const std::vector<Varying>& read, Problems& problems) {
     for (const Varying& input : read) {
         const auto output =
             std::find_if(written.begin(), written.end(), [&](const Varying& v) { return v.name == input.name; });
         if (!input.active || input.name.empty() || output == written.end() || output->type == input.type) continue;
-        problems.error(input.where,
+        problems.error(inAuthorsLine(input.where, input.name),
                        fmt::format("varying '{}' is a {} here, but a {} in the vertex program", input.name, input.type,
                                    output->type),
-                       "give both the same type", {{output->where, "the vertex program's"}});
+                       "give both the same type",
+                       {{inAuthorsLine(output->where, output->name), "the vertex program's"}});
     }
 }
 
