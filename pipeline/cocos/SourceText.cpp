@@ -251,6 +251,16 @@ Directive readDirective(std::string_view text) {
     return {word.empty() ? LineKind::Code : LineKind::Other, rest};
 }
 
+std::string defineLine(const MacroDefinition& macro) {
+    std::string line = "#define " + std::string(macro.name);
+    if (macro.functionLike) line += '(';
+    for (const std::string_view parameter : macro.parameters)
+        line.append(parameter == macro.parameters.front() ? "" : ", ").append(parameter);
+    if (macro.functionLike) line += ')';
+    for (const auto& part : macro.body) line.append(" ").append(trimBlank(part.text));
+    return line;
+}
+
 bool isMetaTail(std::string_view tail) {
     if (tail.empty()) return true;
     const std::string_view word = leadingName(tail);

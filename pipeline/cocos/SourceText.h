@@ -80,6 +80,9 @@ struct SourceText {
 std::unique_ptr<SourceText> readSource(std::string_view text, const std::string& shown, const std::string& file,
                                        const std::filesystem::path& folder, int firstLine);
 
+/// `#define NAME(parameters) body` in one line.
+std::string defineLine(const MacroDefinition& macro);
+
 std::string_view trimBlank(std::string_view text);
 /// The name at the front of a text, or nothing.
 std::string_view leadingName(std::string_view text);

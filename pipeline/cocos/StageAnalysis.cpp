@@ -19,27 +19,6 @@ namespace {
 
 constexpr int kMaxAliasDepth = 16;
 
-/// The body in one line.
-std::string joinBody(const MacroDefinition& macro) {
-    std::string body;
-    for (const auto& part : macro.body) {
-        if (!body.empty()) body += ' ';
-        body += trimBlank(part.text);
-    }
-    return body;
-}
-
-std::string defineLine(const MacroDefinition& macro) {
-    std::string line = fmt::format("#define {}", macro.name);
-    for (std::size_t i = 0; macro.functionLike && i <= macro.parameters.size(); ++i) {
-        if (i == macro.parameters.size())
-            line += i == 0 ? "()" : ")";
-        else
-            line += fmt::format("{}{}", i == 0 ? "(" : ", ", macro.parameters[i]);
-    }
-    return line + " " + joinBody(macro);
-}
-
 class Analysis {
 public:
     Analysis(StageText& out, std::vector<FlatDirective> directives, Problems& problems)
@@ -76,13 +55,19 @@ private:
     void collectDefinitions() {
         for (const FlatDirective& directive : directives_) {
             if (directive.kind != LineKind::Define && directive.kind != LineKind::PragmaDefine) continue;
-            if (directive.macro != nullptr) {
-                if (!directive.macro->dead) definitions_[directive.macro->name].push_back(directive.macro);
-                if (directive.kind == LineKind::Define) inText_.insert(directive.macro->name);
-            } else {
-                inText_.insert(leadingName(readDirective(textOf(directive)).rest));
-            }
+            const std::string_view name =
+                directive.macro != nullptr ? directive.macro->name : leadingName(readDirective(textOf(directive)).rest);
+            if (directive.macro != nullptr && !directive.macro->dead) definitions_[name].push_back(directive.macro);
+            if (directive.kind == LineKind::Define) inText_.insert(name);
+            if (directive.kind == LineKind::PragmaDefine || !isHidden(directive)) visible_.insert(name);
         }
+    }
+
+    /// `# define`: Cocos' compiler does not see it, and takes the name for a macro from outside.
+    bool isHidden(const FlatDirective& directive) const {
+        const std::string_view text = std::string_view(out_.flat.text).substr(directive.offset);
+        const std::size_t behind = std::min(text.find('#'), text.size() - 1) + 1;
+        return behind < text.size() && (text[behind] == ' ' || text[behind] == '\t');
     }
 
     void findDead(std::string_view entry) {
@@ -196,11 +181,11 @@ private:
             result.outside = false;
             return result;
         }
-        const auto it = definitions_.find(name);
-        if (it == definitions_.end() && !inText_.contains(name)) {
+        if (!visible_.contains(name)) {
             mention(name, isValue);
             return result;
         }
+        const auto it = definitions_.find(name);
         result.outside = false;
         if (it == definitions_.end() || !isValue || depth >= kMaxAliasDepth) return result;
         for (const MacroDefinition* macro : it->second) followAlias(*macro, it->second.size() == 1, depth, result);
@@ -257,7 +242,7 @@ private:
     /// description without a tag leaves a number what its comparisons make of it.
     void describe(const StageMacro& meta) {
         const std::string& name = meta.info.name;
-        if (definitions_.contains(name) || inText_.contains(name) || engineConstants().contains(name)) return;
+        if (visible_.contains(name) || engineConstants().contains(name)) return;
         const DefineInfo* known = entry(name);
         StageMacro& macro = out_.macros[macroIndex_.find(name)->second];
         if (known->described && meta.info.type == DefineType::Bool && !meta.hasDefault) return;
@@ -364,7 +349,7 @@ private:
     std::vector<FlatDirective> directives_;
     Problems& problems_;
     std::unordered_map<std::string_view, std::vector<const MacroDefinition*>> definitions_;
-    std::unordered_set<std::string_view> inText_;
+    std::unordered_set<std::string_view> inText_, visible_;
     std::unordered_map<std::string, std::size_t> macroIndex_;
     std::unordered_map<std::string, std::uint32_t> conditionIndex_;
     std::vector<Frame> frames_;

@@ -147,6 +147,18 @@ TEST(CocosPragma, AliasesLeadToTheMacrosBehindThem) {
     EXPECT_THAT(conditionsAt(text, "float b;"), ElementsAre("MODE"));
 }
 
+TEST(CocosPragma, ADefineWithABlankIsNotSeen) {
+    CocosBench bench;
+    bench.fragment(
+        "layout(location = 0) out vec4 color;\n#if MODE == 1\n# define KIND 2\n#else\n#\tdefine KIND 3\n#endif\n"
+        "#define OWN 1\n# define OWN 1\n#if KIND == 2 && OWN\nvoid main() { color = vec4(1.0); }\n#endif\n");
+    const StageText text = bench.fragmentText();
+    EXPECT_THAT(macroNames(text), ElementsAre("MODE", "KIND"));
+    EXPECT_THAT(conditionsAt(text, "void main"), ElementsAre("KIND"));
+    EXPECT_THAT(makeHead(text, mergeMacros({text}), {}), Not(HasSubstr("KIND")));  // The text gives it a value.
+    bench.compile({{"MODE", "1"}});
+}
+
 TEST(CocosPragma, LinesKnowTheirConditions) {
     CocosBench bench;
     bench.fragment(
