@@ -136,6 +136,22 @@ TEST_F(CommandsTest, EffectsCompileTakesMacros) {
     EXPECT_TRUE(has(run("effects compile copy --text").out, "#version 450"));
 }
 
+TEST_F(CommandsTest, EffectsCompileFindsTheCocosProjectAboveAPath) {
+    std::filesystem::create_directories(path("game/assets/chunks"));
+    std::filesystem::create_directories(path("game/assets/effects"));
+    write("game/package.json", "{}");
+    write("game/assets/chunks/half.chunk", "vec4 half4() { return vec4(0.5); }\n");
+    write("game/assets/effects/grey.effect",
+          "CCEffect %{\n  techniques:\n  - passes:\n    - { vert: 'vs:vert', frag: 'fs:frag' }\n}%\n"
+          "CCProgram vs %{\n  in vec3 a_position;\n  vec4 vert() { return vec4(a_position, 1.0); }\n}%\n"
+          "CCProgram fs %{\n  #include <half>\n  vec4 frag() { return half4(); }\n}%\n");
+    for (const char* word : {"game", "game/assets/effects", "game/assets/effects/grey.effect"}) {
+        const Outcome outcome = run(std::string("effects compile ") + word);
+        EXPECT_EQ(outcome.code, 0) << word << outcome.err;
+        EXPECT_TRUE(has(outcome.out, "1 compiled, 0 failed")) << outcome.out;
+    }
+}
+
 TEST_F(CommandsTest, EffectsCompileReadsCocosFolders) {
     const std::string assets = "engine/editor/assets/";
     std::filesystem::create_directories(path(assets + "effects"));
