@@ -202,7 +202,7 @@ Condition readCondition(std::string_view expression, const NameLookup& lookup) {
 KeptNames keepNames(std::string_view expression, const NameLookup& lookup) {
     KeptNames kept;
     std::string last;  // The name that a comparison would make a number; empty = it stands for something else.
-    bool either = false;
+    bool either = false, asked = false;
     for (expression = trimBlank(expression); !expression.empty(); expression = trimBlank(expression)) {
         const std::string_view word = expression.substr(0, expression.find_first_of(" \t"));
         expression.remove_prefix(word.size());
@@ -211,8 +211,10 @@ KeptNames keepNames(std::string_view expression, const NameLookup& lookup) {
         std::size_t at = 0;
         while (at < word.size() && !isNameStart(word[at])) ++at;
         std::string_view name = leadingName(word.substr(at));
-        const bool defined = name == "defined";
-        if (defined) name = leadingName(word.substr(std::min(word.find('(', at), word.size() - 1) + 1));
+        const bool asks = name == "defined";
+        if (asks) name = leadingName(word.substr(std::min(word.find('(', at), word.size() - 1) + 1));
+        const bool defined = asks || asked;
+        if (asks || !name.empty()) asked = name.empty();  // `defined X`, `defined( X )`: the next word says of what.
         if (name.empty() || name == "__VERSION__") continue;
         const ConditionName meaning = lookup(name, !defined);
         last = meaning.outside ? std::string(name) : std::string();
