@@ -127,7 +127,7 @@ public:
         for (const auto& [name, bodies] : macros) addNode(name);
         for (const auto& [name, bodies] : macros) {
             Node& macro = nodes_[index_[name]];
-            for (const std::string& body : bodies) {
+            for (const std::string_view body : bodies) {
                 macro.pastes = macro.pastes || body.find("##") != std::string::npos;
                 collectNames(body, macro.names);
             }
@@ -175,8 +175,7 @@ private:
     }
 
     /// The known names of a text; its preprocessor lines are left out: what macros stand for is known.
-    void collectNames(std::string_view text, std::vector<std::size_t>& names) const {
-        bool lineBegins = false;
+    void collectNames(std::string_view text, std::vector<std::size_t>& names, bool lineBegins = false) const {
         for (std::size_t at = 0; at < text.size();) {
             const char c = text[at];
             if (c == '#' && lineBegins) {
@@ -201,12 +200,13 @@ private:
     /// Between functions: macros may stand for anything; a function is called by an initial value alone, elsewhere it
     /// is declared.
     void readOutside(std::string_view text) {
+        std::vector<std::size_t> names;
         for (std::size_t begin = 0; begin < text.size();) {
             const std::size_t end = std::min(text.find(';', begin), text.size() - 1) + 1;
             const std::string_view statement = text.substr(begin, end - begin);
             const bool hasValue = statement.find('=') != std::string_view::npos;
-            std::vector<std::size_t> names;
-            collectNames("\n" + std::string(statement), names);
+            names.clear();
+            collectNames(statement, names, true);
             for (const std::size_t name : names)
                 if (hasValue || name >= functionCount_) outside_.push_back(name);
             begin = end;

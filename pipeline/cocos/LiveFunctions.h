@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstddef>
-#include <string>
 #include <string_view>
 #include <unordered_map>
 #include <vector>
@@ -18,7 +17,7 @@ struct FunctionRange {
 };
 
 /// Bodies of the macros that a text leaves to GLSL's preprocessor, by name.
-using MacroBodies = std::unordered_map<std::string_view, std::vector<std::string>>;
+using MacroBodies = std::unordered_map<std::string_view, std::vector<std::string_view>>;
 
 /// The functions that neither `entry` nor main() leads to, by name and through macros, in text order. Conditions are
 /// not evaluated: a call in any branch counts. Empty where that cannot be told: without the entry, when a condition
