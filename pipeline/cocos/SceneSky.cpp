@@ -11,12 +11,7 @@
 namespace crevice::cocos {
 namespace {
 
-std::string endingOf(const std::filesystem::path& path) {
-    std::string ending = path.extension().string();
-    std::transform(ending.begin(), ending.end(), ending.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return ending;
-}
+std::string endingOf(const std::filesystem::path& path) { return lowerCase(path.extension().string()); }
 
 bool isRadiance(const std::string& ending) { return ending == ".hdr" || ending == ".exr"; }
 
@@ -25,15 +20,17 @@ bool isPackedRgbe(const MetaAsset& asset) {
     return flag && flag->isBool() && flag->boolean();
 }
 
+/// Source of both rules: the engine's chunks (unpackRGBE, SRGBToLinear). Its exponents count powers of 1.1 for finer
+/// steps; those of Radiance's .hdr are powers of 2.
 Image decoded(const Image& stored, bool rgbe) {
-    constexpr float kExponentBias = 128;
+    constexpr float kExponentBase = 1.1f, kExponentBias = 128;
     Image out(stored.width, stored.height, Format::RGBA32F);
     for (std::uint32_t y = 0; y < stored.height; ++y) {
         for (std::uint32_t x = 0; x < stored.width; ++x) {
             const glm::vec4 texel = stored.at(x, y);
             const glm::vec3 color(texel);
             const glm::vec3 radiance =
-                rgbe ? color * std::exp2(std::round(texel.w * 255.0f) - kExponentBias) : color * color;
+                rgbe ? color * std::pow(kExponentBase, texel.w * 255.0f - kExponentBias) : color * color;
             const float values[4] = {radiance.x, radiance.y, radiance.z, 1};
             std::memcpy(out.pixels.data() + (std::size_t(y) * stored.width + x) * sizeof values, values, sizeof values);
         }
@@ -50,7 +47,7 @@ bool isPanorama(const std::filesystem::path& path) {
 
 Environment readSky(const MetaAsset& asset, const Log& log, const Limits& limits) {
     if (isRadiance(endingOf(asset.path))) return loadEnvironment(asset.path, log, limits);
-    const Image stored = readImage(asset.path);
+    const Image stored = readImage(asset.path, limits);
     checkPanoramaShape(stored.width, stored.height, asset.path.filename().string());
     return makeEnvironment(decoded(stored, isPackedRgbe(asset)), asset.path.filename().string(), log);
 }

@@ -14,8 +14,8 @@ namespace crevice::cocos {
 bool isPanorama(const std::filesystem::path& path);
 
 /// A panorama, twice as wide as high: .hdr and .exr hold radiance; the eight bits of .png, .jpg and .webp are squared,
-/// as the engine does; where the meta says `isRGBE`, they are a mantissa each, and alpha is their exponent plus 128.
-/// Throws Error.
+/// as the engine does; where the meta says `isRGBE`, they are a mantissa each, and alpha is 128 more than the power
+/// of 1.1 that they are times. Throws Error: no such picture, another shape, more than `limits` allow.
 Environment readSky(const MetaAsset& asset, const Log& log, const Limits& limits);
 
 }  // namespace crevice::cocos

@@ -40,7 +40,8 @@ PictureName readPictureName(const std::string& texture) {
                       .wrapV = SamplerWrap::Repeat}};
     const std::size_t mark = texture.rfind('#');
     std::error_code failed;
-    if (mark == std::string::npos || std::filesystem::exists(texture, failed)) return name;
+    const bool ofFolder = mark != std::string::npos && texture.find('/', mark) != std::string::npos;
+    if (mark == std::string::npos || ofFolder || std::filesystem::exists(texture, failed)) return name;
     name.file = texture.substr(0, mark);
     std::string_view words = std::string_view(texture).substr(mark + 1);
     while (!words.empty()) {

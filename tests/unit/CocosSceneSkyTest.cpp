@@ -1,5 +1,8 @@
 // Skies of .scene files: their pictures, when they are shown and when they light, and what lights a scene without any.
+#include <array>
+
 #include "CocosSceneFixture.h"
+#include "cocos/SceneSky.h"
 #include "core/Image.h"
 
 namespace crevice::cocos {
@@ -59,11 +62,54 @@ TEST(CocosSceneSky, EightBitsAreSquared) {
 
 TEST(CocosSceneSky, PackedPicturesHaveTheirExponentInAlpha) {
     SkyFolder folder;
+    Image packed(4, 2, Format::RGBA8);
+    const auto put = [&](std::size_t texel, const std::array<int, 4>& bytes) {
+        for (std::size_t c = 0; c < 4; ++c) packed.pixels[texel * 4 + c] = std::byte(bytes[c]);
+    };
+    for (std::size_t i = 0; i < 8; ++i) put(i, {0, 0, 0, 128});
+    put(0, {255, 51, 102, 130});
+    put(1, {255, 51, 0, 128});
+    put(2, {255, 51, 0, 126});
+    put(3, {243, 0, 1, 201});
+    writeImage(folder.folder.path() / "project/packed.png", packed);
     const ImportedScene out = folder.sky(14, R"("_envLightingType": 2, )" + SkyFolder::picture("_envmapHDR", kHdr));
     ASSERT_TRUE(out.scene.environment) << folder.notes;
-    // 130 - 128: times four.
-    EXPECT_NEAR(texelOf(*out.scene.environment, 0, 0).x, 4, 1e-5);
-    EXPECT_NEAR(texelOf(*out.scene.environment, 0, 0).y, 0.8, 1e-5);
+    const auto expect = [&](std::uint32_t x, const glm::dvec3& radiance, double tolerance) {
+        for (int c = 0; c < 3; ++c)
+            EXPECT_NEAR(texelOf(*out.scene.environment, x, 0)[c], radiance[c], tolerance) << x << ' ' << c;
+    };
+    expect(0, {1.21, 0.242, 0.484}, 1e-5);       // 1.1²; 51 and 102 are a fifth and two fifths of it
+    expect(1, {1, 0.2, 0}, 1e-5);                // 1.1⁰
+    expect(2, {0.8264463, 0.1652893, 0}, 1e-5);  // 1 / 1.21
+    // 1000 as the engine packs it: 1.1^73 = 1051 is the first power above, 1000 / 1051 * 255 = 242.6. A step is 4.12.
+    expect(3, {1000, 0, 4.12}, 2.06);
+    EXPECT_NEAR(texelOf(*out.scene.environment, 3, 0).z, 4.122, 0.001);
+}
+
+TEST(CocosSceneSky, PicturesOfEightBitsAreHeldToTheLimits) {
+    const TempFolder folder;
+    const Log quiet(LogLevel::Error, [](LogLevel, std::string_view) {});
+    const MetaAsset asset{.uuid = kLdr, .path = folder.path() / "sky.png"};
+    writeImage(asset.path, Image(8, 4, Format::RGBA8));
+    Limits limits;
+    limits.maxImageSide = 8;
+    limits.maxImagePixels = 32;
+    EXPECT_EQ(readSky(asset, quiet, limits).radiance.width, 8u);
+    limits.maxImageSide = 7;
+    EXPECT_TRUE(contains(errorOf([&] { readSky(asset, quiet, limits); }), "--limit image-side="));
+    limits.maxImageSide = 8;
+    limits.maxImagePixels = 31;
+    EXPECT_TRUE(contains(errorOf([&] { readSky(asset, quiet, limits); }), "--limit image-pixels="));
+    limits = {};
+    limits.maxFileBytes = 8;
+    EXPECT_TRUE(
+        contains(errorOf([&] { readSky(asset, quiet, limits); }), "it is larger than the 8 bytes that are read"));
+}
+
+TEST(CocosSceneSky, EndingsOfPanoramasMayBeInCapitals) {
+    for (const char* name : {"a.HDR", "a.Exr", "a.PNG", "a.jpg", "a.JPEG", "a.WebP"})
+        EXPECT_TRUE(isPanorama(name)) << name;
+    for (const char* name : {"a.gltf", "png", "a.png.meta", "a"}) EXPECT_FALSE(isPanorama(name)) << name;
 }
 
 TEST(CocosSceneSky, CamerasSayWhetherItIsShownAndTheSkyWhetherItLights) {

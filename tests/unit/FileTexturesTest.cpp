@@ -38,6 +38,15 @@ TEST(PictureName, AFileMayHaveTheMarkInItsName) {
     EXPECT_EQ(readPictureName(odd + "#nearest").file, odd);
 }
 
+TEST(PictureName, AMarkInAFoldersNameIsTheFolders) {
+    const PictureName missing = readPictureName("C#/a.png");  // so that it is what "cannot be read" names
+    EXPECT_EQ(missing.file, "C#/a.png");
+    EXPECT_EQ(missing.sampler.minFilter, Filter::Linear);
+    const PictureName sampled = readPictureName("C#/a.png#nearest");
+    EXPECT_EQ(sampled.file, "C#/a.png");
+    EXPECT_EQ(sampled.sampler.minFilter, Filter::Nearest);
+}
+
 TEST(PictureName, UnknownWordsAreErrors) {
     for (const char* words : {"blurred", "clamp-w", "nearest-max", "linearly"}) {
         const std::string text = test::errorOf([&] { readPictureName(std::string("noise.png#") + words); });
