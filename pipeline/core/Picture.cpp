@@ -48,13 +48,14 @@ std::optional<PictureHeader> readJpegHeader(std::span<const std::byte> bytes) {
     constexpr int kMaxSegments = 2000;  // ICC profiles have up to 255
     if (!startsWith(bytes, "\xff\xd8\xff")) return std::nullopt;
     std::size_t at = 2;
-    for (int segment = 0; segment < kMaxSegments && at + 9 <= bytes.size(); ++segment) {
+    for (int segments = 0; segments < kMaxSegments && at + 9 <= bytes.size();) {
         if (bytes[at] != std::byte{0xff}) return std::nullopt;
         const unsigned marker = std::to_integer<unsigned>(bytes[at + 1]);
-        if (marker == 0xff) {
+        if (marker == 0xff) {  // B.1.1.2: any number of them may stand before a marker
             ++at;
             continue;
         }
+        ++segments;
         if (marker >= 0xc0 && marker <= 0xcf && marker != 0xc4 && marker != 0xc8 && marker != 0xcc)
             return PictureHeader{PictureKind::Jpeg, bigEndian(bytes, at + 7, 2), bigEndian(bytes, at + 5, 2)};
         at += 2 + bigEndian(bytes, at + 2, 2);

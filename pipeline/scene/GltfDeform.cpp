@@ -13,7 +13,7 @@ namespace {
 void addTarget(const File& file, int mesh, const AttributeMap& target, const std::string& name, float weight,
                FloatStream& base) {
     const auto entry = target.find(name);
-    if (entry == target.end() || base.components == 0 || weight == 0) return;
+    if (entry == target.end() || base.components == 0) return;
     const Floats difference = readFloats(file, entry->second);
     if (difference.count() != base.count)
         file.fail(
@@ -58,6 +58,7 @@ glm::vec3 unitOr(const glm::vec3& vector, const glm::vec3& otherwise) {
 void morph(const File& file, int mesh, const PrimitivePart& primitive, std::span<const float> weights,
            std::span<const int> sets, Attributes& attributes) {
     for (std::size_t i = 0; i < primitive.targets.size() && i < weights.size(); ++i) {
+        if (weights[i] == 0) continue;
         const auto add = [&](const std::string& name, FloatStream& base) {
             addTarget(file, mesh, primitive.targets[i], name, weights[i], base);
         };

@@ -207,6 +207,17 @@ std::string nameOf(const MeshPart& mesh, int index, std::size_t primitive) {
 
 }  // namespace
 
+// Nodes of different skins read a mesh once each: a small file can have its primitives and targets read any number of
+// times without many vertices. To pass over 64 targets of weight 0 takes as long as to read one of a few vertices.
+void Meshes::countReadings(std::size_t times, std::size_t passedOver, int mesh) {
+    const std::size_t most = std::max<std::size_t>(4 * file_.options.limits.maxInstances, 1000);
+    readings_ += times + passedOver / 64;
+    if (readings_ > most)
+        file_.fail("meshes", std::size_t(mesh),
+                   fmt::format("nodes deform meshes so often that more than {} primitives and targets are read", most),
+                   raiseLimit("instances"));
+}
+
 void Meshes::countVertices(std::size_t vertices, std::size_t times, std::size_t indices, int mesh) {
     const std::size_t limit = file_.options.limits.maxVertices;
     const bool tooMany = vertices > (limit - vertexCount_) / times || indices > 6 * limit - indexCount_;
@@ -225,12 +236,14 @@ std::optional<Mesh> Meshes::readPrimitive(int meshIndex, std::size_t index, cons
     const std::span<const int> sets = primitive.material < 0 ? std::span<const int>(kFirstSets)
                                                              : materials_.texcoords[std::size_t(primitive.material)];
 
+    const std::span<const float> weights = deformation.weights.empty() ? from.weights : deformation.weights;
+    const std::size_t times = timesRead(primitive, deformation, weights);
+    countReadings(times, std::min(weights.size(), primitive.targets.size()) + primitive.attributes.size(), meshIndex);
     const auto position = primitive.attributes.find("POSITION");
     if (position == primitive.attributes.end()) return std::nullopt;  // legal, and nothing to draw
     const std::size_t count = file_.model.accessors[std::size_t(position->second)].count;
     Release::Reading reading(release_, primitive);
-    const std::span<const float> weights = deformation.weights.empty() ? from.weights : deformation.weights;
-    countVertices(count, timesRead(primitive, deformation, weights), 0, meshIndex);
+    countVertices(count, times, 0, meshIndex);
     Attributes attributes = readAttributes(file_, meshIndex, primitive, sets, !deformation.joints.empty());
     morph(file_, meshIndex, primitive, weights, sets, attributes);
 

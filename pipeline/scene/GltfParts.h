@@ -289,6 +289,8 @@ public:
 
 private:
     std::optional<Mesh> readPrimitive(int mesh, std::size_t primitive, const Deformation& deformation, Part& part);
+    /// `passedOver`: targets and attributes that are only looked at.
+    void countReadings(std::size_t times, std::size_t passedOver, int mesh);
     /// `times`: attributes of that many vertices are read besides each other.
     void countVertices(std::size_t vertices, std::size_t times, std::size_t indices, int mesh);
 
@@ -299,6 +301,7 @@ private:
     std::vector<Mesh>& meshes_;
     std::map<Key, std::vector<Part>> parts_;
     std::size_t vertexCount_ = 0, indexCount_ = 0;
+    std::size_t readings_ = 0;             ///< Of primitives, and of their targets.
     std::size_t made_ = 0, expected_ = 0;  ///< Vertices, for LoadOptions::progress.
 };
 

@@ -10,6 +10,7 @@ namespace crevice::gltf {
 namespace {
 
 /// Trees that are looked for in scenes, over all of them: scenes may show the same hundreds of skins again and again.
+/// With --strict files of more are refused, as File::spend() does.
 constexpr std::size_t kMostLooks = 10'000'000;
 
 /// The trees of all nodes, walked once: chains of a million nodes with as many joints are asked about in no time.
@@ -123,6 +124,11 @@ void checkScenes(const File& file, const Trees& trees) {
         if (const int skin = findMissing(); skin >= 0)
             file.fault("scenes", i, fmt::format("it shows a mesh of skins[{}], but not its joints", skin));
     }
+    if (looks == 0 && file.options.strict)
+        throw Error(SourceLoc{file.name},
+                    fmt::format("its scenes show skins so often that their joints are looked for more than {} times",
+                                kMostLooks),
+                    "leave --strict out: it looks for all of them");
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 // `crevice render`: which files it writes, and that options change the picture as they say.
 #include <fstream>
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "CliTools.h"
@@ -232,6 +233,43 @@ CCProgram red-fs %{
 })");
     expectWritten("render crease -p red.pipeline.json -o a.png --size 8x8", {"a.png"});
     EXPECT_EQ(picture("a.png").at(4, 4), glm::vec4(1, 0, 0, 1));
+}
+
+// Each scene's shadow maps have its own size, whichever scene comes first; `--set` wins over all.
+TEST_F(RenderTest, ScenesOfCocosBringTheSizeOfTheirShadowMaps) {
+    std::filesystem::create_directories(path("game/assets"));
+    write("game/package.json", "{}");
+    const auto addScene = [&](const std::string& name, int side) {
+        write("game/assets/" + name + ".scene",
+              R"([ { "__type__": "cc.SceneAsset", "scene": { "__type__": "cc.Scene", "_children": [
+      { "__type__": "cc.Node", "_components": [
+        { "__type__": "cc.MeshRenderer", "_mesh": { "__uuid__": "1263d74c-8167-4928-91a6-4e2672411f47@17020" } } ] } ],
+      "_globals": { "__type__": "cc.SceneGlobals", "shadows": { "__type__": "cc.ShadowsInfo", "_enabled": true,
+        "_type": 1, "_size": { "__type__": "cc.Vec2", "x": )" +
+                  fmt::format(R"({0}, "y": {0} }} }} }} }} }} ])", side));
+    };
+    addScene("small", 64);
+    addScene("large", 2048);
+    std::filesystem::create_directory(path("out"));
+    const std::string article = std::string(CREVICE_TEST_SOURCE_DIR) + "/tests/cocos/article-v36/";
+    const auto heldWith = [&](const std::string& scenes, const std::string& more = "") {
+        const Outcome outcome =
+            run("render " + scenes + " -o out/ -v --size 32x18 -p " + article +
+                "project/assets/pipeline/ssao-deferred-pipeline.rpp --engine " + article + "engine" + more);
+        EXPECT_EQ(outcome.code, 0) << outcome.err;
+        Names held;  // "4.2 MiB" for each scene
+        for (std::size_t at = 0; (at = outcome.err.find("targets hold ", at)) != std::string::npos; ++at)
+            held.push_back(outcome.err.substr(at + 13, outcome.err.find("MiB", at) - at - 13));
+        return held;
+    };
+    const std::string small = "game/assets/small.scene", large = "game/assets/large.scene";
+    const Names one = heldWith(small), other = heldWith(large);
+    ASSERT_EQ(one.size(), 1u);
+    ASSERT_EQ(other.size(), 1u);
+    EXPECT_NE(one, other);
+    EXPECT_EQ(heldWith(small + " " + large + " " + small), (Names{one[0], other[0], one[0]}));
+    EXPECT_EQ(heldWith(large + " " + small, " --set cc_shadowMap.size=[64,64] --set shadowDepth.size=[64,64]"),
+              (Names{one[0], one[0]}));
 }
 
 }  // namespace

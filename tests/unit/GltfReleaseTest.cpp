@@ -1,43 +1,15 @@
 // Bytes of a big glTF are given back when no mesh needs them any more, and not before.
-#include <cstring>
-
-#include <fmt/format.h>
-
-#include "GltfTestTools.h"
+#include "GltfReleaseTools.h"
 #include "core/Memory.h"
-#include "scene/GltfRelease.h"
 
 namespace crevice {
 namespace {
 
 using Document = test::GltfText;
+using test::kCount;
 using test::Listener;
+using test::Opened;
 using test::TempFolder;
-
-constexpr std::size_t kCount = 600'000;  // vertices of 12 bytes: 7.2 MB, 27 blocks
-
-// The same places and normals, one after the other (stride 0) or interleaved; the first place is `first`.
-Document bigDocument(std::size_t stride) {
-    Document document;
-    document.bytes.assign(24 * kCount, 0);
-    const std::size_t apart = stride ? stride : 12, normals = stride ? 12 : 12 * kCount;
-    for (std::size_t i = 0; i < kCount; ++i) {
-        const float place[3] = {float(i), 1, 2}, normal[3] = {0, 1, 0};
-        std::memcpy(&document.bytes[i * apart], place, 12);
-        std::memcpy(&document.bytes[normals + i * apart], normal, 12);
-    }
-    const std::string more = stride ? fmt::format(R"(, "byteStride": {})", stride) : "";
-    document.views = fmt::format(
-        R"({{"buffer": 0, "byteLength": {0}{2}}}, {{"buffer": 0, "byteOffset": {1}, "byteLength": {0}{2}}})",
-        stride ? 24 * kCount - 12 : 12 * kCount, normals, more);
-    document.accessors = fmt::format(
-        R"({{"bufferView": 0, "componentType": 5126, "count": {0}, "type": "VEC3", "min": [0, 1, 2], "max": [{1}, 1, 2]}},
-           {{"bufferView": 1, "componentType": 5126, "count": {0}, "type": "VEC3"}})",
-        kCount, kCount - 1);
-    document.attributes = R"("POSITION": 0, "NORMAL": 1)";
-    document.primitive = "";
-    return document;
-}
 
 void expectVertices(const Mesh& mesh) {
     ASSERT_EQ(mesh.vertices.size(), kCount);
@@ -51,7 +23,7 @@ TEST(GltfRelease, BigMeshesAreReadRightly) {
     for (const std::size_t stride : {0, 24}) {
         const TempFolder folder;
         Listener listener;
-        Document document = bigDocument(stride);
+        Document document = test::bigGltf(stride);
         // Twice the same primitive, and twice more of another mesh.
         document.primitive = "}, {\"attributes\": {" + document.attributes +
                              "}}]}, {\"primitives\": [{\"attributes\": {" + document.attributes + "}";
@@ -64,38 +36,10 @@ TEST(GltfRelease, BigMeshesAreReadRightly) {
     }
 }
 
-/// The opened file, and how many of its positions read as they should.
-struct Opened {
-    explicit Opened(const Document& document, const std::map<int, std::size_t>& times)
-        : options{.log = listener.log},
-          file(gltf::open(folder.write("t.glb", document.glb()), options)),
-          release(file) {
-        release.expect(times);
-    }
-    std::size_t placesThere() const {
-        const auto& accessor = file.model.accessors[0];
-        const auto& view = file.model.bufferViews[std::size_t(accessor.bufferView)];
-        std::size_t there = 0;
-        for (std::size_t i = 0; i < kCount; ++i) {
-            float y = 0;
-            std::memcpy(&y, view.bytes.data() + i * (view.byteStride ? view.byteStride : 12) + 4, 4);
-            there += y == 1;
-        }
-        return there;
-    }
-    const gltf::PrimitivePart& primitive() const { return file.model.meshes[0].primitives[0]; }
-
-    TempFolder folder;
-    Listener listener;
-    LoadOptions options;
-    gltf::File file;
-    gltf::Release release;
-};
-
 TEST(GltfRelease, BytesGoAsTheyArePassed) {
     constexpr std::size_t kBlock = (1 << 18) / 12 + 1;  // places
     for (const std::size_t stride : {0, 24}) {
-        Opened opened(bigDocument(stride), {{0, 1}});
+        Opened opened(test::bigGltf(stride), {{0, 1}});
         EXPECT_EQ(opened.placesThere(), kCount);
         {
             gltf::Release::Reading reading(opened.release, opened.primitive());
@@ -109,20 +53,11 @@ TEST(GltfRelease, BytesGoAsTheyArePassed) {
 }
 
 TEST(GltfRelease, WhatIsReadAgainStays) {
-    Opened opened(bigDocument(0), {{0, 2}});
-    { const gltf::Release::Reading first(opened.release, opened.primitive()); }
+    Opened opened(test::bigGltf(0), {{0, 2}});
+    opened.read();
     EXPECT_EQ(opened.placesThere(), kCount);
-    { const gltf::Release::Reading second(opened.release, opened.primitive()); }
+    opened.read();
     EXPECT_LT(opened.placesThere(), kCount / 10);
-}
-
-TEST(GltfRelease, WhatOthersReadStays) {
-    Document document = bigDocument(0);
-    document.views += fmt::format(R"(, {{"buffer": 0, "byteLength": {}}})", 12 * kCount);
-    document.rest = R"(, "images": [{"bufferView": 2, "mimeType": "image/png"}])";
-    Opened opened(document, {{0, 1}});
-    { const gltf::Release::Reading reading(opened.release, opened.primitive()); }
-    EXPECT_EQ(opened.placesThere(), kCount);
 }
 
 // With indices that name each vertex once, and without any.

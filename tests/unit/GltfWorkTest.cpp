@@ -190,5 +190,88 @@ TEST(GltfWork, ListsOfExtensionsHoldNames) {
     }
 }
 
+// The limit grows with the file as it was opened; to ask for it walks through nothing, so later parts do not count.
+TEST(GltfWork, BytesHeldAreCountedOnce) {
+    const TempFolder folder;
+    Listener listener;
+    const LoadOptions options{.log = listener.log};
+    gltf::File file = gltf::open(folder.write("t.gltf", Document().json()), options);
+    std::size_t bytes = file.content.size();
+    for (const auto& part : file.storage) bytes += part.size();
+    EXPECT_EQ(file.bytesHeld, bytes);
+    file.storage.emplace_back(1000);
+    file.spend(10'000'000 + 4 * bytes - file.spent);
+    EXPECT_TRUE(contains(errorOf([&] { file.spend(1); }), "name the same bytes so often"));
+}
+
+// 200 trees show 200 skins each, in 260 scenes: 1.04e7 looks for a tree of joints.
+TEST(GltfWork, StrictRefusesScenesThatShowSkinsTooOften) {
+    Document document = makeStrict();
+    test::append<std::uint8_t>(document.bytes, {0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0});
+    test::append<std::uint8_t>(document.bytes, {255, 0, 0, 0, 255, 0, 0, 0, 255, 0, 0, 0, 255, 0, 0, 0});
+    document.views +=
+        R"(, {"buffer": 0, "byteOffset": 56, "byteLength": 16}, {"buffer": 0, "byteOffset": 72, "byteLength": 16})";
+    document.accessors += R"(, {"bufferView": 2, "componentType": 5121, "count": 4, "type": "VEC4"},
+        {"bufferView": 3, "componentType": 5121, "normalized": true, "count": 4, "type": "VEC4"})";
+    document.attributes = R"("POSITION": 0, "JOINTS_0": 2, "WEIGHTS_0": 3)";
+    constexpr int kTrees = 200;
+    std::string joints, parents, leaves, skins;  // nodes 0 … 199, 200 … 399 and what is below these
+    for (int i = 0; i < kTrees; ++i) {
+        document.roots += i ? fmt::format(", {}, {}", i, kTrees + i) : fmt::format(", {}", kTrees);
+        joints += "{}, ";
+        skins += fmt::format(R"({}{{"joints": [{}]}})", i ? ", " : "", i);
+        std::string children;
+        for (int k = 0; k < kTrees; ++k) {
+            children += fmt::format("{}{}", k ? ", " : "", (2 + i) * kTrees + k);
+            leaves += fmt::format(R"(, {{"mesh": 0, "skin": {}}})", k);
+        }
+        parents += fmt::format(R"({}{{"children": [{}]}})", i ? ", " : "", children);
+    }
+    document.nodes = joints + parents + leaves;
+    document.rest = R"(, "skins": [)" + skins + "]";
+    const auto errorWith = [&](int scenes, bool strict) {
+        document.scenes = repeat(scenes - 1, R"(, {"nodes": [)" + document.roots + "]}");
+        const TempFolder folder;
+        Listener listener;
+        const LoadOptions options{.log = listener.log, .strict = strict};
+        return errorOf([&] { gltf::open(folder.write("t.gltf", document.json()), options); });
+    };
+    EXPECT_EQ(errorWith(240, true), "no error");
+    EXPECT_TRUE(contains(errorWith(260, true), "their joints are looked for more than 10000000 times"));
+    EXPECT_EQ(errorWith(260, false), "no error");
+}
+
+// Nodes of as many skins read a mesh's primitives and targets once each, be there vertices or not.
+TEST(GltfWork, MeshesAreDeformedALimitedNumberOfTimes) {
+    const TempFolder folder;
+    const auto errorOfNodes = [&](Document document, int count) {
+        std::string skins;
+        document.nodes.clear();
+        document.roots.clear();
+        for (int i = 0; i < count; ++i) {
+            document.nodes += fmt::format(R"({}{{"mesh": 0, "skin": {}}})", i ? ", " : "", i);
+            document.roots += fmt::format("{}{}", i ? ", " : "", i);
+            skins += fmt::format(R"({}{{"joints": [0]}})", i ? ", " : "");
+        }
+        document.rest = R"(, "skins": [)" + skins + "]";
+        Listener listener;
+        LoadOptions options{.log = listener.log};
+        options.limits.maxInstances = 500;  // 2000 readings
+        return errorOf([&] { loadGltf(folder.write("t.gltf", document.json()), options); });
+    };
+    const std::string message = "meshes[0]: nodes deform meshes so often that more than 2000 primitives and targets";
+    Document empty;
+    empty.attributes = R"("NORMAL": 0)";
+    empty.primitive = R"(}, {"attributes": {"NORMAL": 0})";
+    EXPECT_EQ(errorOfNodes(empty, 1000), "no error");
+    EXPECT_TRUE(contains(errorOfNodes(empty, 1001), message)) << errorOfNodes(empty, 1001);
+    EXPECT_TRUE(contains(errorOfNodes(empty, 1001), "--limit instances=N"));
+    Document targets;  // 6400 of weight 0 are 100 readings
+    targets.primitive = R"(, "targets": [{"POSITION": 0})" + repeat(6399, R"(, {"POSITION": 0})") +
+                        R"(]}], "weights": [0)" + repeat(6399, ", 0") + R"(], "extras": [{)";
+    EXPECT_EQ(errorOfNodes(targets, 19), "no error");
+    EXPECT_TRUE(contains(errorOfNodes(targets, 20), message)) << errorOfNodes(targets, 20);
+}
+
 }  // namespace
 }  // namespace crevice

@@ -83,6 +83,22 @@ TEST(Picture, HeadersSayTheSize) {
     }
 }
 
+// ITU-T T.81, B.1.1.2: any number of bytes 0xff may stand before a marker. Comments are segments.
+TEST(Picture, JpegsMayHaveAnyNumberOfFillBytesButNotOfSegments) {
+    const std::vector<std::byte> plain = encodeJpeg(sample());
+    const auto withStart = [&](std::size_t count, std::initializer_list<int> part) {
+        std::vector<std::byte> bytes(plain.begin(), plain.begin() + 2);
+        for (std::size_t i = 0; i < count; ++i)
+            for (const int byte : part) bytes.push_back(std::byte(byte));
+        bytes.insert(bytes.end(), plain.begin() + 2, plain.end());
+        return bytes;
+    };
+    ASSERT_EQ(errorOf(withStart(5000, {0xff})), "no error");
+    EXPECT_EQ(decodePicture(withStart(5000, {0xff}), "p"), decodePicture(plain, "p"));
+    EXPECT_TRUE(readPictureHeader(withStart(1900, {0xff, 0xfe, 0, 2})));
+    EXPECT_FALSE(readPictureHeader(withStart(2000, {0xff, 0xfe, 0, 2})));
+}
+
 // A few bytes that claim gigabytes are refused before a pixel is stored: by the limits, and where these are raised by
 // what the bytes can hold.
 TEST(Picture, BombsAreRefusedByTheirHeader) {

@@ -51,6 +51,7 @@ public:
 private:
     void loadScene(std::size_t index);
     void start();
+    void compile();
     void renderScene(std::size_t index);
     void renderFrames(const RenderItem& item, const View& view);
     void writeDumps(const View& view);
@@ -64,9 +65,9 @@ private:
     Timings timings_;
     Stopwatch watch_;
     OutputFiles files_;
-    Scene scene_;                      ///< The next one to render.
-    std::optional<Camera> camera_;     ///< Chosen for it.
-    std::vector<StageSet> sceneSets_;  ///< Of the first one.
+    Scene scene_;                               ///< The next one to render.
+    std::optional<Camera> camera_;              ///< Chosen for it.
+    std::vector<StageSet> wanted_, sceneSets_;  ///< What it says of the pipeline, and what that was loaded with.
     std::unique_ptr<Renderer> renderer_;
 };
 
@@ -82,7 +83,7 @@ void RenderRun::loadScene(std::size_t index) {
     };
     OpenedScene opened = openScene(item.scene, pipeline_, makeLog(options_.console, progress_), loading);
     scene_ = std::move(opened.scene);
-    if (index == 0) sceneSets_ = std::move(opened.sets);
+    wanted_ = std::move(opened.sets);
     if (opened.background && options_.view.background.empty()) job_.view.background = *opened.background;
     Limits limits;
     for (const std::string& limit : options_.loading.limits) setLimit(limits, limit);
@@ -105,18 +106,25 @@ void RenderRun::start() {
     pipeline_.addEffects(renderer_->effects());
     timings_.deviceMs = watch_.lap();
     for (const std::filesystem::path& plugin : pipeline_.classes().pluginFiles()) renderer_->loadPlugin(plugin);
+    compile();
+}
+
+void RenderRun::compile() {
     progress_.show(fmt::format("compiling {} …", pipeline_.desc().name));
     const auto frames = static_cast<std::uint32_t>(std::min<std::size_t>(job_.frames * job_.items.size(), 1u << 30));
+    sceneSets_ = wanted_;
     PipelineRequest request = pipeline_.request();
     request.sets.insert(request.sets.begin(), sceneSets_.begin(), sceneSets_.end());  // those of the command line win
     renderer_->load(request, {.width = job_.view.size.x, .height = job_.view.size.y, .frames = frames});
-    timings_.compileMs = watch_.lap();
+    timings_.compileMs += watch_.lap();
 }
 
 void RenderRun::renderScene(std::size_t index) {
     const RenderItem& item = job_.items[index];
     if (index > 0) loadScene(index);
     watch_.lap();
+    const auto isSame = [](const StageSet& a, const StageSet& b) { return a.path == b.path && a.value == b.value; };
+    if (!std::ranges::equal(wanted_, sceneSets_, isSame)) compile();
     View view{.width = job_.view.size.x, .height = job_.view.size.y, .background = job_.view.background};
     view.camera = camera_;
     for (const Dump& dump : job_.dumps) {
