@@ -106,6 +106,25 @@ TEST(GltfReleaseShared, WhatOnePrimitiveReadsTwiceStaysToItsEnd) {
     EXPECT_LT(opened.placesThere(), kCount / 10);
 }
 
+// Attributes of other counts are legal in files as long as nobody reads them.
+TEST(GltfReleaseShared, AttributesThatEndEarlyTakeNothingElse) {
+    Document document = test::bigGltf(0);
+    constexpr std::size_t kBefore = 1 << 20;
+    document.bytes.insert(document.bytes.begin(), kBefore, 0);
+    document.views =
+        fmt::format(R"({{"buffer": 0, "byteOffset": {}, "byteLength": {}}}, {{"buffer": 0, "byteLength": 120}})",
+                    kBefore, 12 * kCount);
+    document.accessors = fmt::format(
+        R"({{"bufferView": 0, "componentType": 5126, "count": {}, "type": "VEC3"}},
+           {{"bufferView": 1, "componentType": 5126, "count": 10, "type": "VEC3"}})",
+        kCount);
+    document.attributes = R"("POSITION": 0, "_SHORT": 1)";
+    Opened opened(document, {{0, 2}});
+    gltf::Release::Reading first(opened.release, opened.primitive());
+    first.passed(kCount - 1);
+    EXPECT_EQ(opened.placesThere(), kCount);
+}
+
 // The same bytes 12 and 24 apart: the slower of the two says what goes. Shorter ones, that nobody reads, do not matter.
 TEST(GltfReleaseShared, StreamsOfOtherStridesStayForTheSlowest) {
     Document document = test::bigGltf(0);
@@ -230,7 +249,18 @@ TEST(GltfReleaseShared, BlocksThatManyTargetsReadAreDroppedOnce) {
     EXPECT_EQ(dropsAmong(30'000), 0u) << "6e7 look-ups of targets are not worth it";
 }
 
-// 55 blocks or 56, as the allocator places them; one more where places and normals meet.
+// Each block once: 55 or 56, as the allocator places them.
+TEST(GltfReleaseShared, BlocksThatManyAttributesReadAreDroppedOnce) {
+    for (const std::size_t stride : {0, 24}) {
+        Document document = test::bigGltf(stride);
+        for (int i = 0; i < 20; ++i) document.attributes += fmt::format(R"(, "_{0}A": 0, "_{0}B": 1)", i);
+        Opened opened(document, {{0, 1}});
+        opened.read();
+        EXPECT_NEAR(double(opened.release.drops()), 55.5, 1);
+        EXPECT_LT(opened.placesThere(), kCount / 10);
+    }
+}
+
 TEST(GltfReleaseShared, SoManyReadingsAreNotCounted) {
     const auto dropsAmong = [&](std::size_t times) {
         Opened opened(test::bigGltf(0), {{0, times}});
