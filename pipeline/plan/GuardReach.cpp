@@ -9,15 +9,44 @@ namespace crevice {
 namespace {
 
 constexpr double kFloatNoisePixels = 0.01;
+constexpr double kMostTexelsAcross = 4;  ///< The guard is a multiple of so many pixels: see guardPixels().
 
 using Needs = std::map<std::string, std::uint32_t, std::less<>>;  ///< Target → pixels of the frame.
 
 std::uint32_t& growTo(std::uint32_t& pixels, std::uint32_t least) { return pixels = std::max(pixels, least); }
 
+std::uint32_t roundedUp(double pixels) {
+    return pixels < kWholeGuard ? static_cast<std::uint32_t>(std::ceil(pixels - kFloatNoisePixels)) : kWholeGuard;
+}
+
 /// Pixels of the frame that so many pixels of a target's level are.
-std::uint32_t framePixels(std::uint32_t pixels, const TargetDesc& target, std::uint32_t mip) {
-    const double exact = std::ldexp(static_cast<double>(pixels), static_cast<int>(mip)) / target.scale;
-    return exact < kWholeGuard ? static_cast<std::uint32_t>(std::ceil(exact - kFloatNoisePixels)) : kWholeGuard;
+double framePixels(double pixels, const TargetDesc& target, std::uint32_t mip) {
+    return std::ldexp(pixels, static_cast<int>(mip)) / target.scale;
+}
+
+/// Whether the frame begins at a texel, and pixels are a whole number of texels, or texels of pixels.
+bool isAligned(const TargetDesc& target) {
+    const double scale = target.scale;
+    return (scale >= 1 && scale == std::floor(scale)) || scale == 1.0 / 2 || scale == 1 / kMostTexelsAcross;
+}
+
+/// By how many pixels of the frame the texels of a level stick out of a part of it that they cover: all of a texel but
+/// the first bit of it; where texels are not aligned, the frame itself is rounded, too (see frameCrop()).
+double overhang(const TargetDesc& target, std::uint32_t mip) {
+    if (target.size) return 0;
+    const double across = 1.0 / target.scale;
+    return isAligned(target) ? framePixels(1, target, mip) - std::min(1.0, across)
+                             : framePixels(1, target, mip) + across;
+}
+
+/// What whole texels add to what a stage reads. In a grid of the same texels nothing: both are rounded alike. In
+/// another one, each texel that is drawn reads from all of the frame that it covers, and the same place by coordinates
+/// from 0 to 1 is shifted by up to the overhang of the coarser one: sizes of one frame are rounded differently.
+double rounding(const PipelineDesc& desc, const TargetWrite& write, const TargetRead& read) {
+    const TargetDesc &to = *desc.findTarget(write.target), *from = desc.findTarget(read.target);
+    if (!from || from->size) return 0;
+    if (from->scale == to.scale && read.mip == write.mip && isAligned(to)) return 0;
+    return overhang(to, write.mip) + std::max(overhang(to, write.mip), overhang(*from, read.mip));
 }
 
 /// What a stage must draw for those behind it; all of it where it writes something without a guard, or nothing.
@@ -32,13 +61,13 @@ std::uint32_t beyondOf(const PipelineDesc& desc, const PlannedStage& stage, Need
     return beyond;
 }
 
-/// What it must find around the frame in what it reads.
-std::uint32_t neededBy(const PipelineDesc& desc, const PlannedStage& stage, std::optional<std::uint32_t> reach) {
+/// What it must find around the frame in one target that it reads.
+std::uint32_t neededBy(const PipelineDesc& desc, const PlannedStage& stage, std::optional<std::uint32_t> reach,
+                       const TargetRead& read) {
     if (!reach || stage.beyond == kWholeGuard) return kWholeGuard;
     const TargetWrite& write = stage.writes.front().write;
-    const std::uint64_t needed =
-        std::uint64_t(stage.beyond) + framePixels(*reach, *desc.findTarget(write.target), write.mip);
-    return static_cast<std::uint32_t>(std::min<std::uint64_t>(needed, kWholeGuard));
+    const TargetDesc& target = *desc.findTarget(write.target);
+    return roundedUp(stage.beyond + framePixels(*reach, target, write.mip) + rounding(desc, write, read));
 }
 
 }  // namespace
@@ -47,9 +76,9 @@ void planGuard(const PipelineDesc& desc, FramePlan& plan) {
     Needs needs;
     for (auto stage = plan.stages.rbegin(); stage != plan.stages.rend(); ++stage) {
         stage->beyond = beyondOf(desc, *stage, needs);
-        const std::uint32_t needed = neededBy(desc, *stage, plan.uses[stage->use].reach);
         for (const PlannedWrite& planned : stage->writes) growTo(needs[planned.write.target], stage->beyond);
-        for (const TargetRead& read : stage->reads) growTo(needs[read.target], needed);
+        for (const TargetRead& read : stage->reads)
+            growTo(needs[read.target], neededBy(desc, *stage, plan.uses[stage->use].reach, read));
     }
 }
 

@@ -7,6 +7,7 @@
 #include "plan/PipelineAssetFiles.h"
 #include "plan/PipelineAssetReader.h"
 #include "plan/PipelineEdits.h"
+#include "plan/PipelineEditsTree.h"
 #include "plan/PipelineOptions.h"
 
 namespace crevice {
@@ -43,6 +44,7 @@ PipelineTree mergeChain(const Chain& chain, const PriorityLookup& defaultPriorit
     PipelineTree tree;
     std::set<std::string> flowOptions;
     for (const PipelineSource& source : chain) {
+        tree.reach.addDocument(source.file, source.isFlowFile);
         if (source.isFlowFile) addNewOptions(source.tree, tree.document, flowOptions);
         mergeDocument(tree, source.tree, problems);
         applyEdits(tree, source.tree, defaultPriority, problems);
@@ -53,11 +55,26 @@ PipelineTree mergeChain(const Chain& chain, const PriorityLookup& defaultPriorit
     return tree;
 }
 
-PipelineDesc loadChain(const Chain& chain, const PipelineRequest& request, Problems& problems) {
+/// Takes out every `reach` that does not hold for what its stage became.
+void dropStaleReach(PipelineTree& tree, const AssetRoots& roots) {
+    for (Value& flow : treeFlows(tree.document)) {
+        for (Value& stage : flowStages(flow)) {
+            const Value* reach = stage.find("reach");
+            const Value* effect = stage.find("effect");
+            const bool isOther = reach && effect && effect->isString() &&
+                                 tree.reach.isForAnotherEffect(roots, effect->string(), reach->where());
+            if (reach && (isOther || tree.reach.isStale(stageName(stage), reach->where()))) stage.erase("reach");
+        }
+    }
+}
+
+PipelineDesc loadChain(const Chain& chain, const AssetRoots& roots, const PipelineRequest& request,
+                       Problems& problems) {
     PipelineTree tree = mergeChain(chain, request.defaultPriority, problems);
     std::vector<OptionDesc> options = readOptions(tree.document, request.options, problems);
     applyChoiceSets(tree, options);
     applySets(tree, request.sets, problems);
+    dropStaleReach(tree, roots);
     substituteOptions(tree.document, options, problems);
     PipelineDesc desc = readPipelineTree(tree.document, std::move(options), chain.back().file, problems);
     for (const PipelineSource& source : chain) desc.files.push_back(source.file);
@@ -75,8 +92,9 @@ Value inReadingOrder(const Value& document) {
     return ordered;
 }
 
-Value flattenChain(const Chain& chain, const PipelineRequest& request, FlattenOptions mode, Problems& problems) {
-    (void)loadChain(chain, request, problems);  // Only a document without mistakes is flattened.
+Value flattenChain(const Chain& chain, const AssetRoots& roots, const PipelineRequest& request, FlattenOptions mode,
+                   Problems& problems) {
+    (void)loadChain(chain, roots, request, problems);  // Only a document without mistakes is flattened.
     PipelineTree tree = mergeChain(chain, request.defaultPriority, problems);
     std::vector<OptionDesc> options = readOptions(tree.document, request.options, problems);
     if (mode == FlattenOptions::Resolve) applyChoiceSets(tree, options);
@@ -87,8 +105,9 @@ Value flattenChain(const Chain& chain, const PipelineRequest& request, FlattenOp
     } else if (!options.empty()) {
         std::vector<std::string> paths;
         for (const StageSet& set : request.sets) paths.push_back(set.path);
-        keepOptions(tree.document, options, paths);
+        keepOptions(tree, options, paths);
     }
+    dropStaleReach(tree, roots);
     return inReadingOrder(tree.document);
 }
 
@@ -96,24 +115,28 @@ Value flattenChain(const Chain& chain, const PipelineRequest& request, FlattenOp
 
 PipelineDesc loadPipeline(const AssetRoots& roots, const PipelineRequest& request) {
     Problems problems;
-    return loadChain(readPipelineChain(roots, request, problems), request, problems);
+    return loadChain(readPipelineChain(roots, request, problems), roots.forDocument(request.nameOrPath), request,
+                     problems);
 }
 
 PipelineDesc parsePipeline(std::string_view text, const std::string& file, const AssetRoots& roots,
                            const PipelineRequest& request) {
     Problems problems;
-    return loadChain(parsePipelineChain(roots, text, file, request.options, problems), request, problems);
+    return loadChain(parsePipelineChain(roots, text, file, request.options, problems), roots.forDocument(file), request,
+                     problems);
 }
 
 Value flattenPipeline(const AssetRoots& roots, const PipelineRequest& request, FlattenOptions options) {
     Problems problems;
-    return flattenChain(readPipelineChain(roots, request, problems), request, options, problems);
+    return flattenChain(readPipelineChain(roots, request, problems), roots.forDocument(request.nameOrPath), request,
+                        options, problems);
 }
 
 Value flattenParsed(std::string_view text, const std::string& file, const AssetRoots& roots,
                     const PipelineRequest& request, FlattenOptions options) {
     Problems problems;
-    return flattenChain(parsePipelineChain(roots, text, file, request.options, problems), request, options, problems);
+    return flattenChain(parsePipelineChain(roots, text, file, request.options, problems), roots.forDocument(file),
+                        request, options, problems);
 }
 
 }  // namespace crevice

@@ -214,6 +214,7 @@ void Editor::setStage(const Value& edit, Value& stage) {
                             didYouMean(member.key, stageKeys().names(), "keys"));
         } else {
             mergeKey(stage, member.key, member.value, member.keyLoc);
+            tree_.reach.noteStageKey(stageName(stage), member.key, member.keyLoc);
         }
     }
 }
@@ -239,6 +240,7 @@ void Editor::replace(const Value& edit) {
     if (!place) return;
     if (stageName(*with) != name->string()) tree_.removed.push_back(name->string());
     stageAt(flows_, *place) = *with;
+    tree_.reach.noteStageKey(stageName(*with), "effect", edit.where());
 }
 
 void Editor::remove(const Value& edit) {

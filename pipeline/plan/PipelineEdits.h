@@ -6,6 +6,7 @@
 
 #include "core/Document.h"
 #include "plan/PipelineAsset.h"
+#include "plan/ReachChanges.h"
 
 namespace crevice {
 
@@ -13,6 +14,7 @@ namespace crevice {
 struct PipelineTree {
     Value document;                    ///< Top-level object; flows and stages are well formed.
     std::vector<std::string> removed;  ///< Stages and flows that edits took out: sets of options on them are dropped.
+    ReachChanges reach{};              ///< What a stage's `reach` has to be younger than.
 };
 
 /// Name of a stage object: "name", or else its class.

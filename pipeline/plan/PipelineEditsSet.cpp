@@ -72,6 +72,7 @@ public:
         Value* targets = tree_.document.find("targets");
         if (const auto place = findStage(flows, parts_[0])) {
             setStage(stageAt(flows, *place));
+            if (!dryRun_) tree_.reach.noteStageKey(parts_[0], parts_[1], where_);
         } else if (Value* target = targets ? targets->find(parts_[0]) : nullptr) {
             if (target->isObject()) setTarget(*target);
         } else if (const auto flow = findFlow(flows, parts_[0])) {
@@ -154,6 +155,7 @@ private:
             fail(fmt::format("unknown key '{}' in {}", key, what), didYouMean(key, targetKeys().names(), "keys"));
             return;
         }
+        if (!dryRun_) tree_.reach.noteTargetKey(target, key, where_);
         if (!dryRun_ && (key == "scale" || key == "size")) target.erase(key == "scale" ? "size" : "scale");
         setOwnKey(target, what);
     }

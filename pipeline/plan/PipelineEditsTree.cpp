@@ -2,6 +2,7 @@
 #include "plan/PipelineEditsTree.h"
 
 #include <algorithm>
+#include <string_view>
 
 #include <fmt/format.h>
 
@@ -98,7 +99,9 @@ void mergeDefinition(Value& first, const Value& second) {
 }
 
 /// "targets", "blocks" or "options": new names are added, known ones need "override", null takes one out.
-void mergeSection(Value& document, const Value& from, const char* section, const char* what, Problems& problems) {
+void mergeSection(PipelineTree& tree, const Value& from, const char* section, const char* what, Problems& problems) {
+    Value& document = tree.document;
+    const bool isTargets = section == std::string_view("targets");
     if (!document.find(section)) document.set(section, Value::makeObject(from.where()), from.where());
     Value& into = *document.find(section);
     for (const Member& member : from.members()) {
@@ -107,6 +110,7 @@ void mergeSection(Value& document, const Value& from, const char* section, const
         const auto first = std::find_if(into.members().begin(), into.members().end(),
                                         [&](const Member& other) { return other.key == member.key; });
         if (member.value.isNull() && first != into.members().end()) {
+            if (isTargets) tree.reach.noteRemovedTarget(first->value, member.keyLoc);
             into.erase(member.key);
             continue;
         }
@@ -114,6 +118,8 @@ void mergeSection(Value& document, const Value& from, const char* section, const
             into.set(member.key, member.value, member.keyLoc);
             if (overrides) into.find(member.key)->erase("override");
         } else if (overrides && first->value.isObject()) {
+            for (const Member& key : member.value.members())
+                if (isTargets) tree.reach.noteTargetKey(first->value, key.key, key.keyLoc);
             mergeDefinition(first->value, member.value);
         } else {
             problems.error(member.keyLoc, fmt::format("{} '{}' is defined a second time", what, member.key),
@@ -161,16 +167,15 @@ void mergeDocument(PipelineTree& tree, const Value& document, Problems& problems
             tree.document.set(member.key, value, member.keyLoc);
         if ((member.key == "fallbacks" || member.key == "macros") && value.isObject())
             tree.document.set(member.key, value, member.keyLoc);
+        if (member.key == "macros") tree.reach.noteAll(member.keyLoc);
         if (isNumberOrOption(value, *spec)) tree.document.set(member.key, value, member.keyLoc);
         if (member.key == "plugins" && value.isArray()) mergePlugins(tree.document, value);
-        if (member.key == "targets" && value.isObject())
-            mergeSection(tree.document, value, "targets", "target", problems);
-        if (member.key == "blocks" && value.isObject()) mergeSection(tree.document, value, "blocks", "block", problems);
+        if (member.key == "targets" && value.isObject()) mergeSection(tree, value, "targets", "target", problems);
+        if (member.key == "blocks" && value.isObject()) mergeSection(tree, value, "blocks", "block", problems);
         if (member.key == "options" && value.isObject())
             for (const Member& option : value.members())
                 if (option.value.isNull()) tree.removed.push_back("$" + option.key);
-        if (member.key == "options" && value.isObject())
-            mergeSection(tree.document, value, "options", "option", problems);
+        if (member.key == "options" && value.isObject()) mergeSection(tree, value, "options", "option", problems);
         if (member.key == "flows" && value.isArray()) mergeFlows(tree.document, value, problems);
     }
 }

@@ -164,9 +164,10 @@ std::string longPath(const std::string& path) {
 /// "$guard" among a choice's sets is what `auto` of the option guard stands for.
 bool isAutoPath(const std::string& path) { return path.starts_with('$'); }
 
-/// The option that such a set names, with a range that its value fits.
-void checkAutoSet(const Value& document, const Member& set, Problems& problems) {
-    const Value& options = *document.find("options");
+/// The option that such a set names, with a range that its value fits. A younger document may have put a number in
+/// place of `auto`, which then wins.
+void checkAutoSet(const PipelineTree& tree, const Member& set, Problems& problems) {
+    const Value& options = *tree.document.find("options");
     const std::string name = set.key.substr(1);
     const auto declared = std::find_if(options.members().begin(), options.members().end(),
                                        [&](const Member& option) { return option.key == name; });
@@ -183,6 +184,12 @@ void checkAutoSet(const Value& document, const Member& set, Problems& problems) 
         problems.error(set.keyLoc,
                        fmt::format("option '{}' is no number: a choice cannot say what auto stands for", name),
                        "set values of stages and targets by their paths");
+    } else if (!isAuto(read[0].defaultValue) && !tree.reach.isYounger(read[0].defaultValue.where(), set.keyLoc)) {
+        problems.error(set.keyLoc,
+                       fmt::format("the default of option '{}' is {}: there is no auto for '{}' to stand for", name,
+                                   quoted(read[0].defaultValue), set.key),
+                       fmt::format("give '{}' the default \"auto\", or remove '{}'", name, set.key),
+                       {{read[0].defaultValue.where(), "the default is here"}});
     } else if (!isAuto(set.value)) {
         fits(set.value, read[0], set.value.where(), problems);
     }
@@ -198,6 +205,31 @@ void applyAutoSets(const std::vector<Member>& sets, std::vector<OptionDesc>& opt
 }
 
 std::string firstPart(const std::string& path) { return path.substr(0, path.find('.')); }
+std::string secondPart(const std::string& path) {
+    const std::string rest = path.substr(std::min(path.size(), path.find('.') + 1));
+    return firstPart(rest);
+}
+
+/// What a set of a choice means for `reach`, were the choice in force.
+void noteReachChange(PipelineTree& tree, const std::string& path, const SourceLoc& where) {
+    const std::string name = firstPart(path);
+    const Value* targets = tree.document.find("targets");
+    const Value* target = targets ? targets->find(name) : nullptr;
+    if (target && !findStage(treeFlows(tree.document), name)) {
+        tree.reach.noteTargetKey(*target, secondPart(path), where);
+    } else {
+        tree.reach.noteStageKey(name, secondPart(path), where);
+    }
+}
+
+/// A stale `reach`, or what `auto` stands for where nobody asks for it.
+bool isWithoutUse(const PipelineTree& tree, const std::vector<OptionDesc>& options, const Member& set) {
+    if (isAutoPath(set.key))
+        return std::any_of(options.begin(), options.end(), [&](const OptionDesc& option) {
+            return "$" + option.name == set.key && !isAuto(option.value);
+        });
+    return secondPart(set.key) == "reach" && tree.reach.isStale(firstPart(set.key), set.value.where());
+}
 
 }  // namespace
 
@@ -223,8 +255,10 @@ std::vector<OptionDesc> readOptions(const Value& document, const std::map<std::s
 
 void checkChoiceSets(PipelineTree& tree, Problems& problems) {
     const std::vector<std::string>& removed = tree.removed;
-    // Names may come back by a later insert: only those that are still gone count.
+    // Names may come back by a later insert or declaration: only those that are still gone count.
     std::vector<std::string> present = stageNames(treeFlows(tree.document));
+    if (const Value* declared = tree.document.find("options"))
+        for (const Member& option : declared->members()) present.push_back("$" + option.key);
     const auto isGone = [&](const std::string& name) {
         return std::find(removed.begin(), removed.end(), name) != removed.end() &&
                std::find(present.begin(), present.end(), name) == present.end();
@@ -234,7 +268,7 @@ void checkChoiceSets(PipelineTree& tree, Problems& problems) {
         const Value copy = set;  // The tree must not change under the path that is checked.
         for (const Member& member : copy.members()) {
             if (isAutoPath(member.key))
-                checkAutoSet(tree.document, member, problems);
+                checkAutoSet(tree, member, problems);
             else
                 applySet(tree, member.key, member.value, member.keyLoc, problems, true);
         }
@@ -256,13 +290,18 @@ void applyChoiceSets(PipelineTree& tree, std::vector<OptionDesc>& options) {
     applyAutoSets(sets, options);
 }
 
-void keepOptions(Value& document, const std::vector<OptionDesc>& options, const std::vector<std::string>& setPaths) {
+void keepOptions(PipelineTree& tree, const std::vector<OptionDesc>& options, const std::vector<std::string>& setPaths) {
     for (const OptionDesc& option : options)
-        if (Value* kept = document.find("options")->find(option.name))
+        if (Value* kept = tree.document.find("options")->find(option.name))
             kept->set("default", option.value, option.value.where());
-    forEachChoice(document, [&](auto&, auto&, Value& set) {
+    // The ages of documents are lost in one text: what a choice would make stale goes at once.
+    forEachChoice(tree.document, [&](auto&, auto&, Value& set) {
+        for (const Member& member : set.members()) noteReachChange(tree, member.key, member.keyLoc);
+    });
+    forEachChoice(tree.document, [&](auto&, auto&, Value& set) {
         std::erase_if(set.members(), [&](const Member& member) {
-            return std::any_of(setPaths.begin(), setPaths.end(),
+            return isWithoutUse(tree, options, member) ||
+                   std::any_of(setPaths.begin(), setPaths.end(),
                                [&](const std::string& path) { return longPath(path) == longPath(member.key); });
         });
     });

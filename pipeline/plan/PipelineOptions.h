@@ -26,6 +26,7 @@ void applyChoiceSets(PipelineTree& tree, std::vector<OptionDesc>& options);
 void substituteOptions(Value& document, const std::vector<OptionDesc>& options, Problems& problems);
 
 /// For `flatten` with options kept: values in force become defaults, and sets that `--set` overrides are dropped.
-void keepOptions(Value& document, const std::vector<OptionDesc>& options, const std::vector<std::string>& setPaths);
+/// So is what `auto` stands for where it is not the default, and every `reach` that is stale in some choice.
+void keepOptions(PipelineTree& tree, const std::vector<OptionDesc>& options, const std::vector<std::string>& setPaths);
 
 }  // namespace crevice

@@ -250,7 +250,8 @@ AoBench::Cost AoBench::measureCost(const AoCase& wanted, double radius, const gl
     if (wanted.guard <= 0) return cost;
     const double guarded = std::exchange(geometry, 1e30);
     renderer_.choose(withoutGuard(wanted), radius, size);
-    for (std::uint32_t round = 0; round <= settings_.repeats; ++round) render();
+    renderer_.render(view);  // the first frame after a choice is not counted: the case's own was rendered before
+    for (std::uint32_t round = 0; round < settings_.repeats; ++round) render();
     cost.guardMs = std::max(0.0, guarded - geometry);
     return cost;
 }
