@@ -10,6 +10,7 @@
 #include "cocos/FlatOutput.h"
 #include "cocos/IncludedTexts.h"
 #include "cocos/MacroCall.h"
+#include "cocos/MacroChoices.h"
 #include "cocos/MacroTable.h"
 #include "cocos/Pragmas.h"
 
@@ -78,10 +79,10 @@ private:
     }
 
     void noteChoice(const MacroDefinition& macro, Origin origin) {
-        choices_[macro.name].push_back(&macro);
+        const std::size_t number = choices_.add(macro);
         const std::string name = choiceOf(macro.name);
         emitDirective("#undef " + name, origin, *macro.source);
-        emitDirective(fmt::format("#define {} {}", name, choices_[macro.name].size()), origin, *macro.source);
+        emitDirective(fmt::format("#define {} {}", name, number), origin, *macro.source);
     }
 
     /// A preprocessor line in one piece: of a text, or of a macro's body.
@@ -226,12 +227,41 @@ private:
         return used;
     }
 
-    /// Several definitions of the macro stand above, and none of them is taken yet.
     bool isOpenChoice(std::string_view name) const {
-        const auto it = choices_.find(name);
-        return it != choices_.end() && it->second.size() > 1 &&
-               std::find(chosen_.begin(), chosen_.end(), name) == chosen_.end() &&
-               std::find(active_.begin(), active_.end(), name) == active_.end();
+        return choices_.isOpen(name) && std::find(active_.begin(), active_.end(), name) == active_.end();
+    }
+
+    /// Does a text hold a call whose definition is not chosen, but for those of `name`?
+    bool hasOpenChoice(std::string_view text, std::string_view name) const {
+        for (std::size_t at = 0; (at = table_->findCall(text, at)) != std::string_view::npos;) {
+            const std::string_view call = leadingName(text.substr(at));
+            if (call != name && isOpenChoice(call)) return true;
+            at += call.size();
+        }
+        return false;
+    }
+
+    /// A declaration whose head a condition chooses is written whole for each head: of one in pieces nobody could tell
+    /// what it declares. Of several heads in one the last: each would double the text.
+    template <class Lines>
+    StatementRest restOfDeclaration(const Lines& lines, std::size_t at, std::size_t from, std::string_view name) {
+        const auto& choices = choices_.of(name);
+        const bool declares = std::any_of(choices.begin(), choices.end(), [&](const MacroDefinition* macro) {
+            return macro->declares || (!macro->bearsDirectives && macro->body.size() == 1 &&
+                                       table_->findCall(macro->body[0].text, 0) != std::string_view::npos);
+        });
+        if (!declares) return {};
+        return readStatementRest(lines, at, from, limits_.maxArgument,
+                                 [&](std::string_view part) { return hasOpenChoice(part, name); });
+    }
+
+    /// What the line that is being put together has of the present statement; the rest is written.
+    std::string takeHead(Pending& pending) {
+        const std::size_t end = pending.text.find_last_of(";{}");
+        std::string head = end == std::string::npos ? pending.text : pending.text.substr(end + 1);
+        pending.text.resize(pending.text.size() - head.size());
+        flush(pending);
+        return head;
     }
 
     /// Writes the call of a macro whose definition a condition chooses once for each: a line of code may be broken
@@ -239,7 +269,7 @@ private:
     template <class Lines>
     std::size_t expandChoices(const Lines& lines, std::size_t at, std::size_t call, std::string_view name,
                               std::size_t& from, Pending& pending) {
-        const std::vector<const MacroDefinition*> choices = choices_[name];
+        const std::vector<const MacroDefinition*> choices = choices_.of(name);
         const Origin origin = lines.origin(at);
         CallArguments arguments;
         if (std::any_of(choices.begin(), choices.end(), [](const auto* macro) { return macro->functionLike; }))
@@ -250,15 +280,21 @@ private:
             from = call + name.size();
             return at;
         }
-        const std::size_t last = arguments.found ? arguments.line : at;
-        const std::string_view text = lines.text(last);
+        std::size_t last = arguments.found ? arguments.line : at;
         from = arguments.found ? arguments.end : call + name.size();
+        const StatementRest rest = restOfDeclaration(lines, last, from, name);
+        const std::string head = rest.found ? takeHead(pending) : std::string();
+        const std::string_view text = lines.text(last);
         const std::size_t behind = std::min(text.find_first_not_of(" \t", from), text.size());
         const bool statement = behind < text.size() && text[behind] == ';';
         if (statement) from = behind + 1;
+        if (rest.found) {
+            last = rest.line;
+            from = rest.end;
+        }
         flush(pending);
         const MacroDefinition* const latest = latest_[name];
-        chosen_.push_back(name);
+        choices_.take(name);
         const std::size_t included = included_.size();
         std::vector<const SourceText*> ofCopies;
         bool allEnd = true;
@@ -266,17 +302,20 @@ private:
             latest_[name] = choices[i];
             emitDirective(fmt::format("#{} {} == {}", i == 0 ? "if" : "elif", choiceOf(name), i + 1), origin,
                           *choices[i]->source);
-            Pending copy{{}, origin};
+            Pending copy{head, origin};
             const bool ended = expandChoice(*choices[i], arguments, origin, copy);
-            if (statement && !ended) copy.text += ';';
-            allEnd = allEnd && (ended || statement);
+            if (rest.found && !(statement && ended))
+                writeLines(rest.lines, copy, *choices.front()->source, false);
+            else if (statement && !ended)
+                copy.text += ';';
+            allEnd = allEnd && (ended || statement || rest.found);
             flush(copy);
             const auto ofCopy = included_.cutTo(included);
             ofCopies.insert(ofCopies.end(), ofCopy.begin(), ofCopy.end());
         }
         for (const SourceText* one : ofCopies) included_.insert(*one);
         emitDirective("#endif", origin, *choices.front()->source);
-        chosen_.pop_back();
+        choices_.release();
         latest_[name] = latest;
         endedInDirective_ = allEnd;
         return last;
@@ -302,7 +341,7 @@ private:
     /// Writes a macro's body. True when its last line was a preprocessor line.
     bool expand(const MacroDefinition& macro, const std::vector<std::string>& arguments, Origin call,
                 Pending& pending) {
-        bool endsInDirective = false, outermost = !expandedFrom_;
+        const bool outermost = !expandedFrom_;
         if (outermost) {
             expandedFrom_ = call;
             before_ = {expansions_, written_};
@@ -321,20 +360,27 @@ private:
             written_ += lines.texts.back().size();
         }
         if (written_ > limits_.maxBytes) stopExpanding(macro);
+        const bool endsInDirective = writeLines(lines, pending, *macro.source, !single);
+        if (outermost) expandedFrom_.reset();
+        active_.pop_back();
+        return endsInDirective;
+    }
+
+    /// True when the last line was a preprocessor line. The first one goes on where `pending` is, if not `apart`.
+    bool writeLines(const BodyLines& lines, Pending& pending, const SourceText& source, bool apart) {
+        bool endsInDirective = false;
         for (std::size_t i = 0; i < lines.texts.size() && !stopped_;) {
             endsInDirective = readDirective(lines.texts[i]).kind != LineKind::Code;
-            if (!single) flush(pending);
+            if (apart || i > 0) flush(pending);
             if (endsInDirective) {
-                emitDirective(lines.texts[i], lines.origins[i], *macro.source);
+                emitDirective(lines.texts[i], lines.origins[i], source);
                 ++i;
             } else {
                 i += expandLine(lines, i, pending);
                 endsInDirective = endedInDirective_;
             }
         }
-        if (!single) flush(pending);
-        if (outermost) expandedFrom_.reset();
-        active_.pop_back();
+        if (apart) flush(pending);
         return endsInDirective;
     }
 
@@ -374,8 +420,7 @@ private:
     Problems& problems_;
     const MacroTable* table_ = nullptr;
     std::unordered_map<std::string_view, const MacroDefinition*> latest_;  ///< As the text has defined them so far.
-    std::unordered_map<std::string_view, std::vector<const MacroDefinition*>> choices_;  ///< Likewise, where several.
-    std::vector<std::string_view> chosen_;  ///< Whose definition is chosen for the text that is being written.
+    MacroChoices choices_;
     IncludedTexts included_;
     std::vector<const SourceText*> stack_;
     std::vector<std::string_view> active_;  ///< Macros being expanded: they are not expanded within themselves.

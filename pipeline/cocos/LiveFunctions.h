@@ -16,12 +16,21 @@ struct FunctionRange {
     bool defines = false;  ///< A macro, which holds behind it too: it counts as called.
 };
 
-/// Bodies of the macros that a text leaves to GLSL's preprocessor, by name.
+/// What macros may stand for, by name.
 using MacroBodies = std::unordered_map<std::string_view, std::vector<std::string_view>>;
 
+/// What else a stage's pragmas and conditions say.
+struct LiveHints {
+    std::vector<std::string_view> open;  ///< Macros whose value comes from outside and may be any word.
+    std::vector<std::size_t> kept;  ///< Lines, counted from 0, ascending: the functions around them count as called.
+};
+
 /// The functions that neither `entry` nor main() leads to, by name and through macros, in text order. Conditions are
-/// not evaluated: a call in any branch counts. Empty where that cannot be told: without the entry, when a condition
-/// begins in one function and ends in another, when names are pasted together.
-std::vector<FunctionRange> findDeadFunctions(std::string_view text, std::string_view entry, const MacroBodies& macros);
+/// not evaluated: a call in any branch counts, and so does every name in what is not understood. Empty where that
+/// cannot be told: without the entry, when a condition begins in one function and ends in another, when a macro leaves
+/// a bracket open, when names are pasted together or come from outside. `macros` are those that the text does not
+/// define itself.
+std::vector<FunctionRange> findDeadFunctions(std::string_view text, std::string_view entry, const MacroBodies& macros,
+                                             const LiveHints& hints = {});
 
 }  // namespace crevice::cocos

@@ -11,8 +11,10 @@
 
 #include "cocos/Conditions.h"
 #include "cocos/EngineMacros.h"
+#include "cocos/HoistedMacros.h"
 #include "cocos/LiveFunctions.h"
 #include "cocos/MacroWeight.h"
+#include "cocos/OutsideNames.h"
 
 namespace crevice::cocos {
 namespace {
@@ -46,11 +48,6 @@ private:
         std::vector<std::string> raw;               ///< The same as expressions; the last one is the present branch.
         const FlatDirective* opened = nullptr;
     };
-    struct Hoisted {
-        const MacroDefinition* macro = nullptr;
-        FlatSource::Origin origin{};
-        std::vector<std::string> raw;  ///< Conditions around it.
-    };
 
     void collectDefinitions() {
         for (const FlatDirective& directive : directives_) {
@@ -75,7 +72,33 @@ private:
         for (const auto& [name, definitions] : definitions_)
             for (const MacroDefinition* macro : definitions)
                 for (const auto& part : macro->body) macros[name].emplace_back(part.text);
-        dead_ = findDeadFunctions(out_.flat.text, entry, macros);
+        LiveHints hints;
+        readOutsideNames(directives_, out_.flat.text, visible_, macros, hints);
+        dead_ = findDeadFunctions(out_.flat.text, entry, macros, hints);
+    }
+
+    /// A name in what is left of the text, or in a macro.
+    bool isNamed(std::string_view name) {
+        if (words_.empty()) {
+            std::size_t at = 0;
+            for (const FunctionRange& function : dead_) {
+                addWords(std::string_view(out_.flat.text).substr(at, function.begin - at));
+                at = function.end;
+            }
+            addWords(std::string_view(out_.flat.text).substr(at));
+            for (const auto& [defined, definitions] : definitions_)
+                for (const MacroDefinition* macro : definitions)
+                    for (const auto& part : macro->body) addWords(part.text);
+        }
+        return words_.contains(name);
+    }
+
+    void addWords(std::string_view text) {
+        for (std::size_t at = 0; at < text.size();) {
+            const std::string_view word = leadingName(text.substr(at));
+            if (!word.empty()) words_.insert(word);
+            at += std::max<std::size_t>(1, word.size());
+        }
     }
 
     /// Directives come in the order of the text, and so do functions.
@@ -104,10 +127,11 @@ private:
 
     void read(const FlatDirective& directive) {
         const bool dead = isDead(directive);
-        if (directive.kind == LineKind::Pragma && !dead) describe(*directive.meta);
+        if (directive.kind == LineKind::Pragma && (!dead || isNamed(directive.meta->info.name)))
+            describe(*directive.meta);
         if (directive.kind == LineKind::PragmaDefine) {
             if (directive.macro->dead || directive.macro->bearsDirectives) return;
-            Hoisted hoisted{directive.macro, directive.origin, {}};
+            HoistedMacro hoisted{directive.macro, directive.origin, {}};
             for (const Frame& frame : frames_)
                 hoisted.raw.insert(hoisted.raw.end(), frame.raw.begin(), frame.raw.end());
             hoisted_.push_back(std::move(hoisted));
@@ -295,45 +319,8 @@ private:
         weights.check(out_.flat, problems_);
     }
 
-    /// Position does not matter for `#pragma define`: its macros go in front of everything.
     void hoist() {
-        std::string text;
-        std::vector<FlatSource::Origin> lines;
-        std::unordered_map<std::string_view, std::vector<const Hoisted*>> byName;
-        std::vector<std::string_view> order;
-        for (const Hoisted& hoisted : hoisted_) {
-            auto& same = byName[hoisted.macro->name];
-            if (same.empty()) order.push_back(hoisted.macro->name);
-            same.push_back(&hoisted);
-        }
-        const auto write = [&](const std::string& line, FlatSource::Origin origin) {
-            text += line + "\n";
-            lines.push_back(origin);
-        };
-        for (const std::string_view name : order) {
-            const auto& same = byName[name];
-            const bool equal = std::all_of(same.begin(), same.end(), [&](const Hoisted* other) {
-                return defineLine(*other->macro) == defineLine(*same[0]->macro);
-            });
-            // Where the text has a #define of the name too, both stand in branches of their own.
-            const bool shared = inText_.contains(name) && !same[0]->raw.empty();
-            if (equal && !shared) {
-                write(defineLine(*same[0]->macro), same[0]->origin);
-                continue;
-            }
-            for (std::size_t i = 0; i < same.size(); ++i) {
-                const auto& raw = same[i]->raw;
-                write(fmt::format("#{} {}", i == 0 ? "if" : "elif",
-                                  raw.empty() ? "1" : fmt::format("{}", fmt::join(raw, " && "))),
-                      same[i]->origin);
-                write(defineLine(*same[i]->macro), same[i]->origin);
-            }
-            write("#endif", same.back()->origin);
-        }
-        prepend(text, lines);
-    }
-
-    void prepend(const std::string& text, const std::vector<FlatSource::Origin>& lines) {
+        const auto [text, lines] = hoistMacros(hoisted_, inText_);
         dropDead();
         const int count = static_cast<int>(lines.size());
         out_.flat.text.insert(0, text);
@@ -353,9 +340,10 @@ private:
     std::unordered_map<std::string, std::size_t> macroIndex_;
     std::unordered_map<std::string, std::uint32_t> conditionIndex_;
     std::vector<Frame> frames_;
-    std::vector<Hoisted> hoisted_;
+    std::vector<HoistedMacro> hoisted_;
     const FlatDirective* place_ = nullptr;
     std::vector<FunctionRange> dead_;
+    std::unordered_set<std::string_view> words_;  ///< Of what is alive, once somebody asks.
     std::size_t nextDead_ = 0;
     std::size_t filled_ = 0;
     std::uint32_t present_ = 0;

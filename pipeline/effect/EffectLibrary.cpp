@@ -224,8 +224,10 @@ CompiledPass EffectLibrary::State::compiledFor(const std::string& key, const std
     compiled.code = codeOf(sources, bindings, check, problems);
     problems.throwIfErrors();
     compiled.checked = check;
-    compiled.info = reflectStages(compiled.code, sources, problems);
-    problems.throwIfErrors();
+    Problems remarks;
+    compiled.info = reflectStages(compiled.code, sources, remarks);
+    remarks.throwIfErrors();
+    log.write(remarks);
     ++counters.compiled;
     disk.store(key, compiled);
     return compiled;

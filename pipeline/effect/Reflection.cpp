@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <fstream>
 #include <set>
@@ -271,17 +272,46 @@ SourceLoc inAuthorsLine(SourceLoc where, const std::string& name) {
     return where;
 }
 
+/// A scalar or vector, or an array of such: "vec4[2]" is { "vec", 4, "[2]" }, "int" is { "ivec", 1, "" }.
+struct VaryingShape {
+    std::string_view scalar;
+    int size = 0;  ///< 0 = another type.
+    std::string_view array;
+};
+
+VaryingShape shapeOf(std::string_view type) {
+    static constexpr std::array<std::array<std::string_view, 2>, 4> kScalars{
+        {{"float", "vec"}, {"int", "ivec"}, {"uint", "uvec"}, {"double", "dvec"}}};
+    const std::size_t end = std::min(type.find('['), type.size());
+    const std::string_view element = type.substr(0, end);
+    for (const auto& [scalar, vector] : kScalars) {
+        if (element == scalar) return {vector, 1, type.substr(end)};
+        if (element.size() == vector.size() + 1 && element.starts_with(vector))
+            return {vector, element.back() - '0', type.substr(end)};
+    }
+    return {};
+}
+
+/// Components that nobody reads do no harm (Vulkan's maintenance4 says so of vectors).
+bool isWider(std::string_view output, std::string_view input) {
+    const VaryingShape from = shapeOf(output), to = shapeOf(input);
+    return to.size > 0 && from.scalar == to.scalar && from.array == to.array && from.size > to.size;
+}
+
 /// Texts that are compiled one by one meet here for the first time.
 void checkVaryings(const std::vector<Varying>& written, const std::vector<Varying>& read, Problems& problems) {
     for (const Varying& input : read) {
         const auto output =
             std::find_if(written.begin(), written.end(), [&](const Varying& v) { return v.name == input.name; });
         if (!input.active || input.name.empty() || output == written.end() || output->type == input.type) continue;
-        problems.error(inAuthorsLine(input.where, input.name),
-                       fmt::format("varying '{}' is a {} here, but a {} in the vertex program", input.name, input.type,
-                                   output->type),
-                       "give both the same type",
-                       {{inAuthorsLine(output->where, output->name), "the vertex program's"}});
+        const SourceLoc where = inAuthorsLine(input.where, input.name);
+        const std::string message = fmt::format("varying '{}' is a {} here, but a {} in the vertex program", input.name,
+                                                input.type, output->type);
+        if (isWider(output->type, input.type))
+            problems.note(where, message, "what it lacks is not read: give both the same type to be sure");
+        else
+            problems.error(where, message, "give both the same type",
+                           {{inAuthorsLine(output->where, output->name), "the vertex program's"}});
     }
 }
 

@@ -1,0 +1,192 @@
+// One walk over the characters, with the depth of brackets and conditions.
+#include "cocos/FunctionWalk.h"
+
+#include <algorithm>
+
+#include "cocos/SourceText.h"
+
+namespace crevice::cocos {
+namespace {
+
+constexpr int kMaxAliasDepth = 4;
+
+/// The name that ends in front of `at`, over blanks.
+std::string_view nameBefore(std::string_view text, std::size_t at) {
+    while (at > 0 && isBlank(text[at - 1])) --at;
+    std::size_t begin = at;
+    while (begin > 0 && isNamePart(text[begin - 1])) --begin;
+    return text.substr(begin, at - begin);
+}
+
+/// True when the text is names and blanks alone, and each name is accepted.
+template <class Accepts>
+bool allWords(std::string_view text, Accepts accepts) {
+    for (std::size_t at = 0; at < text.size();) {
+        if (isBlank(text[at]) || text[at] == '\\') {
+            ++at;
+            continue;
+        }
+        const std::string_view word = leadingName(text.substr(at));
+        if (word.empty() || !accepts(word)) return false;
+        at += word.size();
+    }
+    return true;
+}
+
+/// Words that begin another thing than a function, or are none of its types.
+bool isStorage(std::string_view word) {
+    return word == "uniform" || word == "buffer" || word == "in" || word == "out" || word == "struct" ||
+           word == "attribute" || word == "varying" || word == "shared" || word == "layout" || word == "return" ||
+           word == "else";
+}
+
+}  // namespace
+
+std::size_t lineEnd(std::string_view text, std::size_t at) {
+    std::size_t end = std::min(text.find('\n', at), text.size());
+    while (end < text.size() && end > at && text[end - 1] == '\\')
+        end = std::min(text.find('\n', end + 1), text.size());
+    return end;
+}
+
+void addDefinesOf(std::string_view text, MacroBodies& macros) {
+    for (std::size_t at = 0; at < text.size();) {
+        while (at < text.size() && (text[at] == ' ' || text[at] == '\t')) ++at;
+        const bool directive = at < text.size() && text[at] == '#';
+        const std::size_t end = directive ? lineEnd(text, at) : std::min(text.find('\n', at), text.size());
+        if (directive) {
+            const Directive line = readDirective(text.substr(at, end - at));
+            const std::string_view name = leadingName(line.rest);
+            if (line.kind == LineKind::Define && !name.empty()) macros[name].push_back(line.rest.substr(name.size()));
+        }
+        at = end + 1;
+    }
+}
+
+bool keepBrackets(const MacroBodies& macros) {
+    return std::all_of(macros.begin(), macros.end(), [](const auto& macro) {
+        int braces = 0, parens = 0;
+        for (const std::string_view body : macro.second) {
+            for (const char c : body) {
+                braces += int(c == '{') - int(c == '}');
+                parens += int(c == '(') - int(c == ')');
+            }
+        }
+        return braces == 0 && parens == 0;
+    });
+}
+
+bool FunctionWalk::run() {
+    bool lineBegins = true;
+    for (; at_ < text_.size(); ++at_) {
+        const char c = text_[at_];
+        if (c == '\n') lineBegins = true;
+        if (isBlank(c)) continue;
+        if (c == '#' && lineBegins ? !takeDirective() : !take(c)) return false;
+        lineBegins = false;
+    }
+    return depth_ == Depth{} && branches_.empty();
+}
+
+bool FunctionWalk::take(char c) {
+    if (c == '{') {
+        if (depth_.paren > 0 && depth_.brace == 0) return false;
+        if (depth_.brace++ == 0 && last_ == ')' && !begin()) return false;
+    } else if (c == '}') {
+        if (--depth_.brace < 0) return false;
+        if (depth_.brace == 0 && isOpen_ && !end()) return false;
+        if (depth_.brace == 0) finishStatement();
+    } else if (c == '(' && depth_.brace == 0) {
+        if (depth_.paren++ == 0) {
+            paren_ = at_;
+            definesInList_ = false;
+        }
+    } else if (c == ')' && depth_.brace == 0) {
+        if (--depth_.paren < 0) return false;
+    } else if (c == ';' && depth_ == Depth{}) {
+        finishStatement();
+    }
+    last_ = c;
+    return true;
+}
+
+void FunctionWalk::finishStatement() {
+    statementBegin_ = at_ + 1;
+    if (branches_.size() < unfinishedIn_ || unfinishedIn_ == 0) unfinished_ = false;
+}
+
+/// A body begins whose list did at `paren_`. Of what is not understood nothing is said.
+bool FunctionWalk::begin() {
+    const std::string_view name = nameBefore(text_, paren_);
+    const std::string_view type = name.empty() ? name : nameBefore(text_, offsetOf(name));
+    if (type.empty()) return true;
+    if (offsetOf(type) < directiveEnd_) return false;
+    const std::string_view before = text_.substr(statementBegin_, offsetOf(type) - statementBegin_);
+    if (unfinished_ || definesInList_ || macros_.contains(name) || isStorage(name) || !isType(type, 0) ||
+        !allWords(before, [this](std::string_view word) { return isQualifier(word, 0); }))
+        return true;
+    std::size_t start = statementBegin_;
+    while (isBlank(text_[start])) ++start;
+    functions.push_back({name, start, start});
+    branchesAtBegin_ = branches_.size();
+    return isOpen_ = true;
+}
+
+bool FunctionWalk::isType(std::string_view word, int depth) const {
+    const auto macro = macros_.find(word);
+    if (macro == macros_.end()) return isNameStart(word.front()) && !isStorage(word);
+    return depth < kMaxAliasDepth &&
+           std::all_of(macro->second.begin(), macro->second.end(), [&](std::string_view body) {
+               return allWords(body, [&](std::string_view part) { return isType(part, depth + 1); });
+           });
+}
+
+bool FunctionWalk::isQualifier(std::string_view word, int depth) const {
+    const auto macro = macros_.find(word);
+    if (macro == macros_.end())
+        return word == "highp" || word == "mediump" || word == "lowp" || word == "precise" || word == "const" ||
+               word == "invariant";
+    return depth < kMaxAliasDepth &&
+           std::all_of(macro->second.begin(), macro->second.end(), [&](std::string_view body) {
+               return allWords(body, [&](std::string_view part) { return isQualifier(part, depth + 1); });
+           });
+}
+
+bool FunctionWalk::end() {
+    if (branches_.size() != branchesAtBegin_) return false;
+    functions.back().end = at_ + 1;
+    isOpen_ = false;
+    return true;
+}
+
+bool FunctionWalk::takeDirective() {
+    const std::size_t begin = at_, end = lineEnd(text_, at_);
+    at_ = end - 1;
+    const LineKind kind = readDirective(text_.substr(begin, end - begin)).kind;
+    if (depth_ == Depth{}) {
+        noteUnfinished(begin, kind == LineKind::Elif || kind == LineKind::Else || kind == LineKind::Endif);
+        directiveEnd_ = statementBegin_ = end;
+    }
+    const bool defines = kind == LineKind::Define || kind == LineKind::Undef;
+    if (isOpen_ && defines) functions.back().defines = true;
+    if (depth_.paren > 0 && defines) definesInList_ = true;
+    if (!isConditional(kind)) return true;
+    if (kind == LineKind::If || kind == LineKind::Ifdef || kind == LineKind::Ifndef) {
+        branches_.push_back(depth_);
+        return true;
+    }
+    if (branches_.empty() || !(branches_.back() == depth_)) return false;
+    if (isOpen_ && branches_.size() <= branchesAtBegin_) return false;
+    if (kind == LineKind::Endif) branches_.pop_back();
+    return true;
+}
+
+/// What a branch leaves open goes on behind the whole condition.
+void FunctionWalk::noteUnfinished(std::size_t directive, bool turns) {
+    const std::string_view open = text_.substr(statementBegin_, directive - statementBegin_);
+    if (std::all_of(open.begin(), open.end(), isBlank)) return;
+    unfinishedIn_ = turns ? branches_.size() : 0;
+    unfinished_ = true;
+}
+
+}  // namespace crevice::cocos

@@ -1,0 +1,64 @@
+// Finds the functions of a GLSL text that still has its preprocessor lines.
+#pragma once
+
+#include <string_view>
+#include <vector>
+
+#include "cocos/LiveFunctions.h"
+
+namespace crevice::cocos {
+
+inline bool isBlank(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; }
+
+/// Behind the preprocessor line that begins at `at`, with its continuations; its newline is left.
+std::size_t lineEnd(std::string_view text, std::size_t at);
+
+/// Adds what stands behind the name in each #define of the text, parameters included.
+void addDefinesOf(std::string_view text, MacroBodies& macros);
+
+/// True when every macro closes as many brackets as it opens: the brackets of the text are those of the program.
+bool keepBrackets(const MacroBodies& macros);
+
+/// Definitions of functions whose every word is understood: qualifiers, a type, a name that is no macro, a list in
+/// parentheses and then a body, outside of all braces. Whatever else has a body is passed over.
+class FunctionWalk {
+public:
+    FunctionWalk(std::string_view text, const MacroBodies& macros) : text_(text), macros_(macros) {}
+
+    /// False when conditions and braces cross.
+    bool run();
+
+    std::vector<FunctionRange> functions;
+
+private:
+    struct Depth {
+        int brace = 0, paren = 0;
+        bool operator==(const Depth&) const = default;
+    };
+
+    bool take(char c);
+    bool begin();
+    bool end();
+    bool takeDirective();
+    void noteUnfinished(std::size_t directive, bool turns);
+    void finishStatement();
+    bool isType(std::string_view word, int depth) const;
+    bool isQualifier(std::string_view word, int depth) const;
+    std::size_t offsetOf(std::string_view part) const { return static_cast<std::size_t>(part.data() - text_.data()); }
+
+    std::string_view text_;
+    const MacroBodies& macros_;
+    std::size_t at_ = 0, paren_ = 0;
+    std::size_t directiveEnd_ = 0;    ///< Of the last preprocessor line outside of braces and parentheses.
+    std::size_t statementBegin_ = 0;  ///< Behind what ended the last statement outside of braces.
+    Depth depth_;
+    std::vector<Depth> branches_;  ///< Depths at the #if of each enclosing condition.
+    std::size_t branchesAtBegin_ = 0;
+    std::size_t unfinishedIn_ = 0;  ///< How many conditions must be open for `unfinished_` to outlast a statement.
+    char last_ = '\0';
+    bool isOpen_ = false;
+    bool unfinished_ = false;  ///< A preprocessor line stood in the middle of the statement.
+    bool definesInList_ = false;
+};
+
+}  // namespace crevice::cocos

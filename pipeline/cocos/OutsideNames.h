@@ -1,0 +1,19 @@
+// Words that a stage's macros may get from outside: from the options of a description, a material, a command line.
+#pragma once
+
+#include <string_view>
+#include <unordered_set>
+#include <vector>
+
+#include "cocos/Flattener.h"
+#include "cocos/LiveFunctions.h"
+
+namespace crevice::cocos {
+
+/// Adds options and defaults to `bodies`. Into `hints` go the macros that no description holds to options or numbers
+/// and no comparison makes a number, and the lines of `#pragma define`. `defined` are the names that the text defines
+/// itself: nobody else gives them a value.
+void readOutsideNames(const std::vector<FlatDirective>& directives, std::string_view text,
+                      const std::unordered_set<std::string_view>& defined, MacroBodies& bodies, LiveHints& hints);
+
+}  // namespace crevice::cocos
