@@ -73,6 +73,97 @@ TEST(CocosLiveFunctions, WhatCannotBeToldStays) {
     EXPECT_THAT(dead("float a( { return 1.0; }\nvoid main() {}\n"), IsEmpty());
 }
 
+const std::string kHelper = "float helper(float x) { return x; }\n";
+
+TEST(CocosLiveFunctions, NamesInBodiesThatAreNotUnderstoodAreAlive) {
+    const std::string more = "float gone() { return 1.0; }\nvoid main() { foo(1.0); }\n";
+    for (const char* const body : {"float[2] foo(float x) { return float[2](helper(x), x); }\n",
+                                   "#define DECLARE(n) float n(float x)\nDECLARE(foo) { return helper(x); }\n",
+                                   "#define HEAD float foo(float x)\nHEAD\n{\n  return helper(x);\n}\n",
+                                   "#define foo bar\nfloat foo(float x) { return helper(x); }\n",
+                                   "#define TYPE float one; float\nTYPE foo(float x) { return helper(x); }\n",
+                                   "#define THEN helper(1.0)\nfloat foo(float x) { return THEN; }\n"})
+        EXPECT_THAT(dead(kHelper + body + more), ElementsAre("gone")) << body;
+}
+
+TEST(CocosLiveFunctions, DefinesOfTheTextLeadOn) {
+    const std::string main = "float gone() { return 1.0; }\nvoid main() { CALL(1.0); }\n";
+    EXPECT_THAT(dead("#define CALL(a) helper(a)\n" + kHelper + main), ElementsAre("gone"));
+    EXPECT_THAT(dead("#define CALL(a,\\\n  b) helper(a, b)\n" + kHelper + main), ElementsAre("gone"));
+    EXPECT_THAT(dead("#  define CALL \\\n  helper\n" + kHelper + main), ElementsAre("gone"));
+    EXPECT_THAT(dead("#define CALL(a) hel##a(a)\n" + kHelper + main), IsEmpty());
+}
+
+TEST(CocosLiveFunctions, NamesFromOutsideMayBeAny) {
+    const std::string text = kHelper + "float gone() { return 1.0; }\nvoid main() { TONE(1.0); }\n";
+    EXPECT_THAT(dead(text), IsEmpty());  // Nobody here says what TONE is.
+    EXPECT_THAT(dead(text, {{"TONE", {"helper"}}}), ElementsAre("gone"));
+    const MacroBodies none;
+    EXPECT_THAT(findDeadFunctions("float a() { return 1.0; }\nvoid main() { float b = float(mode); }\n", "main", none,
+                                  {{"mode"}, {}}),
+                IsEmpty());
+}
+
+TEST(CocosLiveFunctions, BothTheEntryAndMainAreFollowed) {
+    EXPECT_THAT(dead(kHelper + "float gone() { return 1.0; }\n#if 0\nvoid main() { helper(1.0); }\n#endif\n"
+                               "vec4 frag() { return vec4(1.0); }\n",
+                     {}, "frag"),
+                ElementsAre("gone"));
+}
+
+TEST(CocosLiveFunctions, WhatStandsInFrontOfTheTypeGoesToo) {
+    const auto start = [](const std::string& text) {
+        const auto found = findDeadFunctions(text, "main", {});
+        return found.empty() ? std::string() : text.substr(found[0].begin, 12);
+    };
+    const std::string gone = "vec4 gone() { return vec4(1.0); }\nvoid main() {}\n";
+    EXPECT_EQ(start("uniform vec4 u;\nprecise " + gone), "precise vec4");
+    EXPECT_EQ(start("#define PREC highp\nPREC " + gone), "PREC vec4 go");
+    EXPECT_EQ(start("#define PREC uniform int i; highp\nPREC " + gone), "");
+    EXPECT_EQ(start("#define CALL(x) int x;\nCALL(i) " + gone), "");
+    EXPECT_EQ(start("#if A\nhighp\n#endif\n" + gone), "");
+    EXPECT_EQ(start("#if A\nhighp\n#else\nvec4 v;\n#endif\n" + gone), "");
+}
+
+TEST(CocosLiveFunctions, BlocksAreNoFunctions) {
+    EXPECT_THAT(dead("#define NAME(x) Block\nuniform NAME(x) { vec4 v; };\nvoid main() { v; }\n"), IsEmpty());
+    EXPECT_THAT(dead("uniform Block(x) { vec4 v; };\nvoid main() { v; }\n"), IsEmpty());
+    EXPECT_THAT(dead("#define OPEN {\nfloat a() OPEN return 1.0; }\nfloat b() { return 1.0; }\nvoid main() {}\n"),
+                IsEmpty());
+}
+
+TEST(CocosLiveFunctions, PragmasWithinThem) {
+    CocosBench bench;
+    const std::string main = "vec4 tone(float x) { return vec4(x); }\nlayout(location = 0) out vec4 color;\n";
+    bench.fragment(
+        "float unused() {\n#if USE_A\n#pragma define VALUE 1.0\n  return 1.0;\n#else\n"
+        "#pragma define VALUE 2.0\n  return 2.0;\n#endif\n}\n" +
+        main + "void main() { color = vec4(VALUE); }\n");
+    EXPECT_THAT(bench.fragmentText().flat.text, HasSubstr("unused"));
+    bench.compile();
+    bench.compile({{"USE_A", "1"}});
+    bench.fragment("float unused() {\n#pragma define-meta PICK options([one, two])\n  return 1.0; }\n" + main +
+                   "void main() { float one = 1.0, two = 2.0; color = vec4(PICK); }\n");
+    EXPECT_THAT(macroNames(bench.fragmentText()), ElementsAre("PICK"));
+    bench.compile({{"PICK", "two"}});
+}
+
+TEST(CocosLiveFunctions, OptionsNameThem) {
+    CocosBench bench;
+    bench.fragment(
+        "#pragma define-meta TONE options([toneA, toneB])\nvec4 toneA(vec4 c) { return c; }\n"
+        "vec4 toneB(vec4 c) { return c * 0.5; }\nfloat gone() { return missing; }\n"
+        "layout(location = 0) out vec4 color;\nvoid main() { color = TONE(vec4(1.0)); }\n");
+    EXPECT_THAT(bench.fragmentText().flat.text, Not(HasSubstr("gone")));
+    bench.compile({{"TONE", "toneA"}});
+    bench.compile({{"TONE", "toneB"}});
+    bench.fragment(
+        "vec4 toneA(vec4 c) { return c; }\nlayout(location = 0) out vec4 color;\n"
+        "void main() {\n#ifdef tone\n  color = tone(vec4(1.0));\n#endif\n}\n");
+    EXPECT_THAT(bench.fragmentText().flat.text, HasSubstr("toneA"));
+    bench.compile({{"tone", "toneA"}});
+}
+
 TEST(CocosLiveFunctions, TheirMacrosAreNotTheShaders) {
     CocosBench bench;
     bench.fragment(

@@ -42,6 +42,22 @@ TEST(CocosVarying, OnlyTheBranchesThatAreTaken) {
               "varying 'v_at' is a vec4 here, but a vec3 in the vertex program");
 }
 
+TEST(CocosVarying, MoreMayBeWrittenThanIsRead) {
+    CocosBench bench;
+    const std::string main = "void main() { gl_Position = vec4(1.0); }\n";
+    const std::string color = "layout(location = 0) out vec4 color;\n";
+    const auto meet = [&](const std::string& written, const std::string& read) {
+        bench.effect("flat out " + written + " v_at;\n" + main,
+                     color + "flat in " + read + " v_at;\nvoid main() { color = vec4(v_at.x); }\n");
+        return problemOf(bench).message;
+    };
+    EXPECT_EQ(meet("vec4", "vec2"), "");
+    EXPECT_EQ(meet("ivec3", "ivec2"), "");
+    EXPECT_EQ(meet("vec2", "vec4"), "varying 'v_at' is a vec4 here, but a vec2 in the vertex program");
+    EXPECT_EQ(meet("ivec4", "vec2"), "varying 'v_at' is a vec2 here, but a ivec4 in the vertex program");
+    EXPECT_EQ(meet("uvec4", "ivec2"), "varying 'v_at' is a ivec2 here, but a uvec4 in the vertex program");
+}
+
 TEST(CocosVarying, ArraysAndUnreadOnes) {
     CocosBench bench;
     const std::string main = "void main() { gl_Position = vec4(1.0); }\n";

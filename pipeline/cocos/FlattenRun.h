@@ -1,0 +1,114 @@
+// The walk that makes one text of a stage: its state, and what its two halves share.
+#pragma once
+
+#include <algorithm>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+#include <vector>
+
+#include "cocos/FlatOutput.h"
+#include "cocos/IncludedTexts.h"
+#include "cocos/MacroCall.h"
+#include "cocos/MacroChoices.h"
+#include "cocos/MacroTable.h"
+
+namespace crevice::cocos {
+
+class Flattener : private FlatOutput {
+public:
+    Flattener(const EffectAsset& effect, ChunkLibrary& chunks, const FlattenLimits& limits, Problems& problems)
+        : effect_(effect), chunks_(chunks), limits_(limits), problems_(problems) {}
+
+    Flattened run(const std::string& program, const SourceLoc& where);
+
+private:
+    void emit(const SourceText& source);
+    std::size_t emitLine(const SourceLines& lines, std::size_t at);
+    void noteChoice(const MacroDefinition& macro, Origin origin);
+
+    /// A preprocessor line in one piece: of a text, or of a macro's body.
+    void emitDirective(std::string_view text, Origin origin, const SourceText& source);
+
+    void emitDefinition(const SourceLines& lines, std::size_t at, const MacroDefinition& macro);
+
+    void include(std::string_view rest, std::string_view line, Origin origin, const SourceText& source);
+
+    /// A chunk that includes itself vanishes like any second include, but it is a mistake; the engine's are let pass.
+    bool reportCycle(const SourceText& target, std::string_view line, Origin origin);
+
+    void pragma(std::string_view rest, std::string_view line, Origin origin);
+
+    /// A line of output that is being put together.
+    struct Pending {
+        std::string text;
+        Origin origin{};
+    };
+
+    /// Expands the calls of line `at`, whose arguments may reach over the next ones. Returns the number of lines used.
+    template <class Lines>
+    std::size_t expandLine(const Lines& lines, std::size_t at, Pending& pending);
+
+    bool isOpenChoice(std::string_view name) const {
+        return choices_.isOpen(name) && std::find(active_.begin(), active_.end(), name) == active_.end();
+    }
+
+    /// Does a text hold a call whose definition is not chosen, but for those of `name`?
+    bool hasOpenChoice(std::string_view text, std::string_view name) const;
+
+    /// A declaration whose head a condition chooses is written whole for each head: of one in pieces nobody could tell
+    /// what it declares. Of several heads in one the last: each would double the text.
+    template <class Lines>
+    StatementRest restOfDeclaration(const Lines& lines, std::size_t at, std::size_t from, std::string_view name);
+
+    /// What the line that is being put together has of the present statement; the rest is written.
+    std::string takeHead(Pending& pending);
+
+    /// Writes the call of a macro whose definition a condition chooses once for each: a line of code may be broken
+    /// anywhere. Returns the line on which the call ends; `from` is the column behind it.
+    template <class Lines>
+    std::size_t expandChoices(const Lines& lines, std::size_t at, std::size_t call, std::string_view name,
+                              std::size_t& from, Pending& pending);
+
+    /// One of the definitions: those without parameters leave the brackets standing, those with them need brackets.
+    bool expandChoice(const MacroDefinition& macro, const CallArguments& arguments, Origin origin, Pending& pending);
+
+    /// Writes a macro's body. True when its last line was a preprocessor line.
+    bool expand(const MacroDefinition& macro, const std::vector<std::string>& arguments, Origin call, Pending& pending);
+
+    /// True when the last line was a preprocessor line. The first one goes on where `pending` is, if not `apart`.
+    bool writeLines(const BodyLines& lines, Pending& pending, const SourceText& source, bool apart);
+
+    void flush(Pending& pending) {
+        if (!trimBlank(pending.text).empty()) push(pending.text, pending.origin);
+        pending.text.clear();
+    }
+
+    void push(std::string_view line, Origin origin);
+    void stopExpanding(const MacroDefinition& macro);
+    void stop(std::string_view line, Origin origin, std::string message,
+              std::string help = "includes or macros grow without end");
+
+    const EffectAsset& effect_;
+    ChunkLibrary& chunks_;
+    const FlattenLimits& limits_;
+    Problems& problems_;
+    const MacroTable* table_ = nullptr;
+    std::unordered_map<std::string_view, const MacroDefinition*> latest_;  ///< As the text has defined them so far.
+    MacroChoices choices_;
+    IncludedTexts included_;
+    std::vector<const SourceText*> stack_;
+    std::vector<std::string_view> active_;  ///< Macros being expanded: they are not expanded within themselves.
+    std::optional<Origin> expandedFrom_;    ///< The author's call that writes the present lines.
+    SourceLoc callPlace_;                   ///< Of that call.
+    std::size_t includes_ = 0, expansions_ = 0, written_ = 0;
+    struct {
+        std::size_t expansions = 0, written = 0;
+    } before_;  ///< The counts before that call.
+    std::uint32_t file_ = 0;
+    bool endedInDirective_ = false;  ///< What the line expanded last ended in.
+    bool stopped_ = false;
+};
+
+}  // namespace crevice::cocos

@@ -1,0 +1,76 @@
+// Heads of declarations of which a condition chooses one: each is written with its whole declaration.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "CocosFrontTools.h"
+
+namespace crevice::cocos {
+namespace {
+
+using testing::HasSubstr;
+
+const std::string kColor = "layout(location = 0) out vec4 color;\n";
+
+std::string choice(const std::string& name, const std::string& one, const std::string& other) {
+    return "#if USE_A\n#define " + name + " " + one + "\n#else\n#define " + name + " " + other + "\n#endif\n";
+}
+
+void compileBoth(const CocosBench& bench) {
+    bench.compile();
+    bench.compile({{"USE_A", "1"}});
+}
+
+TEST(CocosChosenHead, ModifiersOfVaryings) {
+    CocosBench bench;
+    bench.effect("out vec4 v_color;\nvoid main() { v_color = vec4(1.0); gl_Position = v_color; }\n",
+                 choice("MOD", "in", "in mediump") + kColor + "MOD vec4 v_color;\nvoid main() { color = v_color; }\n");
+    const std::string text = bench.fragmentText().flat.text;
+    EXPECT_THAT(text, HasSubstr("\nin vec4 v_color;\n"));
+    EXPECT_THAT(text, HasSubstr("\nin mediump vec4 v_color;\n"));
+    compileBoth(bench);
+}
+
+TEST(CocosChosenHead, WhatStandsInFrontAndSeveralInALine) {
+    CocosBench bench;
+    bench.effect(
+        "flat out int v_a; out vec2 v_b;\nvoid main() { v_a = 1; v_b = vec2(1.0); gl_Position = vec4(1.0); }\n",
+        choice("MOD", "in", "in highp") + kColor +
+            "flat MOD int v_a; MOD vec2 v_b;\nvoid main() { color = vec4(v_b, float(v_a), 1.0); }\n");
+    const std::string text = bench.fragmentText().flat.text;
+    EXPECT_THAT(text, HasSubstr("\nflat in int v_a;\n"));
+    EXPECT_THAT(text, HasSubstr("\nflat in highp int v_a;\n"));
+    compileBoth(bench);
+}
+
+TEST(CocosChosenHead, BlocksInALineAndInSeveral) {
+    CocosBench bench;
+    const std::string head = choice("UB", "uniform", "layout(std140) uniform") + kColor;
+    bench.fragment(head + "UB Block { vec4 c; };\nvoid main() { color = c; }\n");
+    compileBoth(bench);
+    bench.fragment(head + "UB Block {\n  vec4 c;\n#if USE_MORE\n  vec4 d;\n#endif\n};\nvoid main() { color = c; }\n");
+    compileBoth(bench);
+    bench.compile({{"USE_MORE", "1"}});
+}
+
+TEST(CocosChosenHead, OverTheEndOfTheLine) {
+    CocosBench bench;
+    bench.fragment(choice("UB", "uniform", "uniform highp") + kColor +
+                   "UB sampler2D\n  map;\nvoid main() { color = texture(map, vec2(0.0)); }\n");
+    compileBoth(bench);
+}
+
+TEST(CocosChosenHead, ManyInALineDoNotMultiply) {
+    CocosBench bench;
+    std::string line;
+    for (int i = 0; i < 12; ++i) line += "UB vec4 u" + std::to_string(i) + "; ";
+    std::string inOne;
+    for (int i = 0; i < 12; ++i) inOne += "UB" + std::to_string(i) + " ";
+    std::string heads;
+    for (int i = 0; i < 12; ++i) heads += choice("UB" + std::to_string(i), "uniform", "uniform highp");
+    bench.fragment(choice("UB", "in", "in highp") + heads + kColor + line + "\n" + inOne + "vec4 all;\n" +
+                   "void main() { color = vec4(1.0); }\n");
+    EXPECT_LT(bench.fragmentText().flat.text.size(), 20'000u);
+}
+
+}  // namespace
+}  // namespace crevice::cocos
