@@ -329,8 +329,8 @@ private:
             out_.scene.environment->visible = showsSky_;
             out_.scene.environment->lights = sky.lights;
         } catch (const Error& error) {
-            problems_.warning(sky.picture.where,
-                              fmt::format("the sky is left out: {}", error.problems().front().message));
+            const Problem& why = error.problems().front();
+            problems_.warning(sky.picture.where, fmt::format("the sky is left out: {}", why.message), why.help);
         }
     }
 

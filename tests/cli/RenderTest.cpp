@@ -273,5 +273,23 @@ TEST_F(RenderTest, ScenesOfCocosBringTheSizeOfTheirShadowMaps) {
               (Names{one[0], one[0]}));
 }
 
+TEST_F(RenderTest, TheBackgroundOfOneSceneIsNotThatOfTheNext) {
+    std::filesystem::create_directories(path("game/assets"));
+    write("game/package.json", "{}");
+    write("game/assets/red.scene",
+          R"([ { "__type__": "cc.SceneAsset", "scene": { "__type__": "cc.Scene", "_children": [
+      { "__type__": "cc.Node", "_components": [ { "__type__": "cc.Camera", "_clearFlags": 7,
+        "_color": { "__type__": "cc.Color", "r": 255, "g": 0, "b": 0, "a": 255 } } ] },
+      { "__type__": "cc.Node", "_components": [
+        { "__type__": "cc.MeshRenderer", "_mesh": { "__uuid__": "1263d74c-8167-4928-91a6-4e2672411f47@17020" } } ] }
+      ] } } ])");
+    write("box.scene.json", kBoxScene);
+    std::filesystem::create_directory(path("out"));
+    ASSERT_EQ(run("render game/assets/red.scene box.scene.json -o out/ --size 16x16 -p deferred").code, 0);
+    const glm::vec4 red = picture("out/red.png").at(0, 0);
+    EXPECT_GT(red.r, 0.5f);
+    EXPECT_EQ(picture("out/box.png").at(0, 0), glm::vec4(0, 0, 0, 1));
+}
+
 }  // namespace
 }  // namespace crevice::cli

@@ -67,6 +67,7 @@ private:
     OutputFiles files_;
     Scene scene_;                               ///< The next one to render.
     std::optional<Camera> camera_;              ///< Chosen for it.
+    glm::vec4 background_{0, 0, 0, 1};          ///< Its camera's, where --background is not given.
     std::vector<StageSet> wanted_, sceneSets_;  ///< What it says of the pipeline, and what that was loaded with.
     std::unique_ptr<Renderer> renderer_;
 };
@@ -84,7 +85,8 @@ void RenderRun::loadScene(std::size_t index) {
     OpenedScene opened = openScene(item.scene, pipeline_, makeLog(options_.console, progress_), loading);
     scene_ = std::move(opened.scene);
     wanted_ = std::move(opened.sets);
-    if (opened.background && options_.view.background.empty()) job_.view.background = *opened.background;
+    const bool fromScene = opened.background && options_.view.background.empty();
+    background_ = fromScene ? *opened.background : job_.view.background;
     Limits limits;
     for (const std::string& limit : options_.loading.limits) setLimit(limits, limit);
     job_.environment.apply(scene_, makeLog(options_.console, progress_), limits);
@@ -125,7 +127,7 @@ void RenderRun::renderScene(std::size_t index) {
     watch_.lap();
     const auto isSame = [](const StageSet& a, const StageSet& b) { return a.path == b.path && a.value == b.value; };
     if (!std::ranges::equal(wanted_, sceneSets_, isSame)) compile();
-    View view{.width = job_.view.size.x, .height = job_.view.size.y, .background = job_.view.background};
+    View view{.width = job_.view.size.x, .height = job_.view.size.y, .background = background_};
     view.camera = camera_;
     for (const Dump& dump : job_.dumps) {
         if (std::find(view.keep.begin(), view.keep.end(), dump.target) == view.keep.end())
