@@ -6,7 +6,10 @@
 #include <cstring>
 
 #include "core/Image.h"
+#include "core/LimitedFiles.h"
+#include "core/Picture.h"
 #include "core/Text.h"
+#include "scene/PanoramaSize.h"
 
 namespace crevice::cocos {
 namespace {
@@ -38,6 +41,17 @@ Image decoded(const Image& stored, bool rgbe) {
     return out;
 }
 
+/// Its size is judged by its header, before anything is decoded.
+Image readPanorama(const std::filesystem::path& path, const Limits& limits) {
+    const std::string name = path.filename().string();
+    const std::vector<std::byte> bytes = readBytesWithin(path, limits.maxFileBytes);
+    const auto header = readPictureHeader(bytes);
+    if (header) checkPanoramaSize(header->width, header->height, name, limits);
+    Image image = header ? decodePicture(bytes, path.string(), limits) : readImage(path, limits);
+    checkPanoramaSize(image.width, image.height, name, limits);
+    return image;
+}
+
 }  // namespace
 
 bool isPanorama(const std::filesystem::path& path) {
@@ -47,8 +61,7 @@ bool isPanorama(const std::filesystem::path& path) {
 
 Environment readSky(const MetaAsset& asset, const Log& log, const Limits& limits) {
     if (isRadiance(endingOf(asset.path))) return loadEnvironment(asset.path, log, limits);
-    const Image stored = readImage(asset.path, limits);
-    checkPanoramaShape(stored.width, stored.height, asset.path.filename().string());
+    const Image stored = readPanorama(asset.path, limits);
     return makeEnvironment(decoded(stored, isPackedRgbe(asset)), asset.path.filename().string(), log);
 }
 

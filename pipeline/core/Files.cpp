@@ -12,6 +12,9 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "core/LimitedFiles.h"
+#include "core/Limits.h"
+
 namespace crevice {
 namespace {
 
@@ -42,13 +45,13 @@ private:
     throw Error(fmt::format("cannot read '{}': {}", path.string(), reason), std::move(help));
 }
 
-[[noreturn]] void failTooLarge(const fs::path& path, std::size_t maxBytes) {
-    failRead(path, fmt::format("it is larger than the {} bytes that are read", maxBytes), "use a smaller file");
+[[noreturn]] void failTooLarge(const fs::path& path, std::size_t maxBytes, std::string help) {
+    failRead(path, fmt::format("it is larger than the {} bytes that are read", maxBytes), std::move(help));
 }
 
-/// Appends the file to a string or vector of bytes.
+/// Appends the file to a string or vector of bytes. `ifTooLarge`: the help then.
 template <class Buffer>
-Buffer readWhole(const fs::path& path, std::size_t maxBytes) {
+Buffer readWhole(const fs::path& path, std::size_t maxBytes, const std::string& ifTooLarge = "use a smaller file") {
     const OpenFile file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
     if (file.get() < 0) {
         const int code = errno;
@@ -59,7 +62,7 @@ Buffer readWhole(const fs::path& path, std::size_t maxBytes) {
     if (::fstat(file.get(), &info) != 0) failRead(path, systemReason(errno), {});
     if (S_ISDIR(info.st_mode)) failRead(path, "it is a folder", "name a file inside it");
     const auto expected = static_cast<std::size_t>(std::max<off_t>(info.st_size, 0));
-    if (S_ISREG(info.st_mode) && expected > maxBytes) failTooLarge(path, maxBytes);
+    if (S_ISREG(info.st_mode) && expected > maxBytes) failTooLarge(path, maxBytes, ifTooLarge);
 
     constexpr std::size_t kStep = std::size_t(1) << 16;
     Buffer content;
@@ -72,7 +75,7 @@ Buffer readWhole(const fs::path& path, std::size_t maxBytes) {
         if (got < 0) failRead(path, systemReason(errno), {});
         if (got == 0) break;
         filled += static_cast<std::size_t>(got);
-        if (filled > maxBytes) failTooLarge(path, maxBytes);
+        if (filled > maxBytes) failTooLarge(path, maxBytes, ifTooLarge);
     }
     content.resize(filled);
     return content;
@@ -143,6 +146,14 @@ std::string readText(const fs::path& path, std::size_t maxBytes) { return readWh
 
 std::vector<std::byte> readBytes(const fs::path& path, std::size_t maxBytes) {
     return readWhole<std::vector<std::byte>>(path, maxBytes);
+}
+
+std::vector<std::byte> readBytesWithin(const fs::path& path, std::size_t most) {
+    return readWhole<std::vector<std::byte>>(path, most, raiseLimit("file-bytes"));
+}
+
+std::string readTextWithin(const fs::path& path, std::size_t most) {
+    return readWhole<std::string>(path, most, raiseLimit("file-bytes"));
 }
 
 void writeFileAtomically(const fs::path& path, std::span<const std::byte> bytes) {

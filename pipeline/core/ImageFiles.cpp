@@ -5,6 +5,7 @@
 #include "core/Files.h"
 #include "core/Hdr.h"
 #include "core/Image.h"
+#include "core/LimitedFiles.h"
 #include "core/Picture.h"
 #include "core/Text.h"
 
@@ -13,7 +14,7 @@ namespace crevice {
 Image readImage(const std::filesystem::path& path) { return readImage(path, Limits{}); }
 
 Image readImage(const std::filesystem::path& path, const Limits& limits) {
-    const std::vector<std::byte> bytes = readBytes(path, limits.maxFileBytes);
+    const std::vector<std::byte> bytes = readBytesWithin(path, limits.maxFileBytes);
     if (readPictureHeader(bytes)) return decodePicture(bytes, path.string(), limits);
     if (looksLikeExr(bytes)) return decodeExr(bytes, path.string(), limits);
     if (looksLikeHdr(bytes)) return decodeHdr(bytes, path.string(), limits);

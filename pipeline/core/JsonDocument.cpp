@@ -6,19 +6,25 @@
 #include <nlohmann/json.hpp>
 
 #include "core/Document.h"
+#include "core/JsonRepeats.h"
 #include "core/JsonSyntax.h"
 #include "core/TextPlaces.h"
 
 namespace crevice {
 namespace {
 
+/// Members in text order, equal keys side by side.
+std::vector<const Member*> sortedByKey(const Value& object) {
+    std::vector<const Member*> sorted;
+    sorted.reserve(object.members().size());
+    for (const Member& member : object.members()) sorted.push_back(&member);
+    std::stable_sort(sorted.begin(), sorted.end(), [](auto* a, auto* b) { return a->key < b->key; });
+    return sorted;
+}
+
 /// Throws at the first key that a finished object holds twice, naming both places.
 void checkDuplicateKeys(const Value& object) {
-    const std::vector<Member>& members = object.members();
-    std::vector<const Member*> sorted;
-    sorted.reserve(members.size());
-    for (const Member& member : members) sorted.push_back(&member);
-    std::stable_sort(sorted.begin(), sorted.end(), [](auto* a, auto* b) { return a->key < b->key; });
+    const std::vector<const Member*> sorted = sortedByKey(object);
     const Member* second = nullptr;
     const Member* first = nullptr;
     for (std::size_t i = 1; i < sorted.size(); ++i) {
@@ -37,11 +43,31 @@ void checkDuplicateKeys(const Value& object) {
     throw Error(std::vector<Problem>{std::move(problem)});
 }
 
+/// Of members with the same key the last one stays.
+void keepLast(Value& object, const RepeatedKey& tell) {
+    const std::vector<const Member*> sorted = sortedByKey(object);
+    std::vector<bool> overridden(sorted.size(), false);
+    const Member* const first = object.members().data();
+    bool any = false;
+    for (std::size_t i = 1; i < sorted.size(); ++i) {
+        if (sorted[i - 1]->key != sorted[i]->key) continue;
+        any = overridden[std::size_t(sorted[i - 1] - first)] = true;
+        tell(sorted[i]->key, sorted[i]->keyLoc);
+    }
+    if (!any) return;
+    std::vector<Member> kept;
+    for (std::size_t i = 0; i < overridden.size(); ++i)
+        if (!overridden[i]) kept.push_back(std::move(object.members()[i]));
+    object.members() = std::move(kept);
+}
+
 /// Receives the parser's events in text order and builds the tree. Member names are those nlohmann-json prescribes.
 class TreeBuilder {
 public:
-    TreeBuilder(std::string_view text, const TextPlaces& places, const DocumentLimits& limits)
-        : text_(text), places_(places), limits_(limits) {
+    /// `repeated`: null = repeated keys are errors.
+    TreeBuilder(std::string_view text, const TextPlaces& places, const DocumentLimits& limits,
+                const RepeatedKey* repeated)
+        : text_(text), places_(places), limits_(limits), repeated_(repeated) {
         if (text.starts_with("\xef\xbb\xbf")) state_.end = 3;
     }
 
@@ -66,7 +92,10 @@ public:
     bool start_object(std::size_t) { return open(Value::makeObject(nextToken()), JsonState::After::ObjectStart); }
     bool start_array(std::size_t) { return open(Value::makeArray(nextToken()), JsonState::After::ArrayStart); }
     bool end_object() {
-        checkDuplicateKeys(*open_.back());
+        if (repeated_)
+            keepLast(*open_.back(), *repeated_);
+        else
+            checkDuplicateKeys(*open_.back());
         return close();
     }
     bool end_array() { return close(); }
@@ -145,22 +174,32 @@ private:
     std::string_view text_;
     const TextPlaces& places_;
     const DocumentLimits& limits_;
+    const RepeatedKey* repeated_;
     JsonState state_;
     Value root_;
     std::vector<Value*> open_;
     std::size_t nodeCount_ = 0;
 };
 
-}  // namespace
-
-Value parseJson(std::string_view text, const std::string& file, const DocumentLimits& limits) {
+Value parse(std::string_view text, const std::string& file, const DocumentLimits& limits, const RepeatedKey* repeated) {
     checkDocumentSize(text, file, limits.maxBytes);
     const TextPlaces places(text, file);
-    TreeBuilder builder(text, places, limits);
+    TreeBuilder builder(text, places, limits, repeated);
     constexpr bool kStrict = true;
     constexpr bool kIgnoreComments = true;
     nlohmann::json::sax_parse(text, &builder, nlohmann::json::input_format_t::json, kStrict, kIgnoreComments);
     return builder.takeRoot();
+}
+
+}  // namespace
+
+Value parseJson(std::string_view text, const std::string& file, const DocumentLimits& limits) {
+    return parse(text, file, limits, nullptr);
+}
+
+Value parseJsonLastWins(std::string_view text, const std::string& file, const DocumentLimits& limits,
+                        const RepeatedKey& repeated) {
+    return parse(text, file, limits, &repeated);
 }
 
 }  // namespace crevice

@@ -40,8 +40,9 @@ PictureName readPictureName(const std::string& texture) {
                       .wrapV = SamplerWrap::Repeat}};
     const std::size_t mark = texture.rfind('#');
     std::error_code failed;
-    const bool ofFolder = mark != std::string::npos && texture.find('/', mark) != std::string::npos;
-    if (mark == std::string::npos || ofFolder || std::filesystem::exists(texture, failed)) return name;
+    // Behind a mark in a folder's or a file's own name stands a slash or an ending, which no word has.
+    const bool ofName = mark != std::string::npos && texture.find_first_of("/.", mark) != std::string::npos;
+    if (mark == std::string::npos || ofName || std::filesystem::exists(texture, failed)) return name;
     name.file = texture.substr(0, mark);
     std::string_view words = std::string_view(texture).substr(mark + 1);
     while (!words.empty()) {

@@ -118,16 +118,26 @@ float automaticLength(const Aabb& scene) {
     return diagonal > 0 ? std::clamp(diagonal / 40.0f, 2e-6f, 1e6f) : 1.0f;
 }
 
+namespace {
+
+float distanceTo(const Aabb& box, const glm::vec3& point) {
+    return box.empty ? 0.0f : glm::distance(point, glm::clamp(point, box.min, box.max));
+}
+
+}  // namespace
+
 float exposureFromEv(float ev) { return 1.0f / (1.2f * std::exp2(ev)); }
 
 float autoExposureEv(const Scene& scene) {
     // Illuminance of a surface that faces the lights: directional light at 45 degrees, hemispheric ambient from both
-    // sides, point and spot lights from a quarter of the scene's diagonal.
-    const float reach = std::max(0.25f * scene.bounds().diagonal(), 1e-6f);
+    // sides, point and spot lights from a quarter of the scene's diagonal inside its bounds.
+    const Aabb bounds = scene.bounds();
+    const float reach = std::max(0.25f * bounds.diagonal(), 1e-6f);
     float illuminance = 0;
     for (const Light& light : scene.lights) {
         const float power = luminance(light.color) * light.intensity;
-        illuminance += light.type == LightType::Directional ? power * 0.70710678f : power / (reach * reach);
+        const float distance = reach + distanceTo(bounds, light.position);
+        illuminance += light.type == LightType::Directional ? power * 0.70710678f : power / (distance * distance);
     }
     const Ambient ambient = ambientOf(scene);
     illuminance += kPi * 0.5f * (luminance(ambient.sky) + luminance(ambient.ground));

@@ -3,14 +3,14 @@
 
 #include "core/Error.h"
 #include "core/Exr.h"
-#include "core/Files.h"
 #include "core/Hdr.h"
+#include "core/LimitedFiles.h"
 #include "scene/Environment.h"
+#include "scene/PanoramaSize.h"
 
 namespace crevice {
-namespace {
 
-void checkSize(std::uint64_t width, std::uint64_t height, const std::string& name, const Limits& limits) {
+void checkPanoramaSize(std::uint64_t width, std::uint64_t height, const std::string& name, const Limits& limits) {
     checkPanoramaShape(width, height, name);
     constexpr std::uint64_t kBytesPerPixel = 16, kShareOfAllPictures = 8;
     const std::uint64_t most = limits.maxImageBytes / kShareOfAllPictures / kBytesPerPixel;
@@ -19,19 +19,17 @@ void checkSize(std::uint64_t width, std::uint64_t height, const std::string& nam
                     raiseLimit("image-bytes"));
 }
 
-}  // namespace
-
 Environment loadEnvironment(const std::filesystem::path& path, const Log& log, const Limits& limits) {
     const std::string name = path.string();
-    const std::vector<std::byte> bytes = readBytes(path, limits.maxFileBytes);
+    const std::vector<std::byte> bytes = readBytesWithin(path, limits.maxFileBytes);
     if (looksLikeHdr(bytes)) {
         const HdrHeader header = readHdrHeader(bytes, name, limits);
-        checkSize(header.width, header.height, name, limits);
+        checkPanoramaSize(header.width, header.height, name, limits);
         return makeEnvironment(decodeHdr(bytes, name, limits), name, log);
     }
     if (looksLikeExr(bytes)) {
         const ExrSize size = exrSize(bytes, name, limits);
-        checkSize(size.width, size.height, name, limits);
+        checkPanoramaSize(size.width, size.height, name, limits);
         return makeEnvironment(decodeExr(bytes, name, limits), name, log);
     }
     throw Error(fmt::format("environment '{}' is neither a Radiance .hdr nor an EXR file", name),

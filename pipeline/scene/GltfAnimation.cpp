@@ -214,6 +214,10 @@ Pose readPose(const File& file) {
     Pose result;
     const LoadOptions& options = file.options;
     if (options.animation.empty() && !options.time) return result;
+    if (options.animation.empty() && listIn(file.json, "animations").empty()) {
+        file.note("no animation that 'time' could count in: shown in its rest pose");
+        return result;
+    }
     const std::size_t animation =
         std::size_t(findNamed(file, "animations", "animation", options.animation.empty() ? "0" : options.animation));
     Player player(file, animation);

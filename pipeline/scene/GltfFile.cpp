@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "core/JsonRepeats.h"
+#include "core/LimitedFiles.h"
 #include "scene/GltfParts.h"
 
 namespace crevice::gltf {
@@ -96,9 +98,15 @@ void parseDocument(File& file) {
         throw Error(SourceLoc{file.name}, "it begins neither as JSON nor as a .glb",
                     "a .gltf begins with '{', a .glb with the letters glTF");
     const Limits& limits = file.options.limits;
-    file.json = parseJson(
+    // Specification, 2.7: keys should be unique; a later value overrides the one before.
+    file.json = parseJsonLastWins(
         text, file.name,
-        {.maxBytes = limits.maxFileBytes, .maxDepth = limits.maxDocumentDepth, .maxNodes = limits.maxDocumentValues});
+        {.maxBytes = limits.maxFileBytes, .maxDepth = limits.maxDocumentDepth, .maxNodes = limits.maxDocumentValues},
+        [&](std::string_view key, const SourceLoc& where) {
+            file.fault(
+                file.binary ? SourceLoc{file.name} : where,
+                fmt::format("key '{}' stands twice in an object: the last value counts", shortened(std::string(key))));
+        });
     if (!file.json.isObject())
         throw Error(placeOf(file, &file.json),
                     fmt::format("the glTF must be an object, found {}", file.json.typeName()),
@@ -169,7 +177,9 @@ void File::tell(std::string_view what, double share) const {
 File open(const fs::path& path, const LoadOptions& options) {
     File file{.name = path.string(), .options = options};
     file.tell("reading", 0);
-    file.content = readBytes(path, std::min(options.limits.maxFileBytes, std::size_t(0xffffffff)));
+    constexpr std::size_t kMostBytes = 0xffffffff;  // what lengths in a .glb can say
+    file.content = options.limits.maxFileBytes > kMostBytes ? readBytes(path, kMostBytes)
+                                                            : readBytesWithin(path, options.limits.maxFileBytes);
     parseDocument(file);
     checkVersion(file);
     checkExtensions(file);

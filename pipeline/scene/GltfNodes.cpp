@@ -120,6 +120,7 @@ private:
         const auto& joints = listIn(skin, "joints");
         const int accessor = intOr(skin, "inverseBindMatrices");
         const Floats inverse = accessor >= 0 ? readSomeFloats(file_, accessor, 0, joints.size()) : Floats{};
+        file_.jointMatrices += joints.size();
         std::size_t mirrored = 0;
         for (std::size_t i = 0; i < joints.size(); ++i) {
             glm::mat4 bind(1);
@@ -184,13 +185,12 @@ private:
         return entry->second;
     }
 
-    // Not metallic as the specification's default is: without an environment that would be black.
+    // That of the specification (3.7.2.1, 3.9): every property has its default, as `{}` has.
     int defaultMaterial() {
         if (defaultMaterial_ < 0) {
             defaultMaterial_ = int(scene_.materials.size());
             SceneMaterial material;
             material.name = "default material";
-            material.metallic = 0;
             scene_.materials.push_back(material);
         }
         return defaultMaterial_;

@@ -46,8 +46,9 @@ struct File {
     Model model{};
     mutable std::set<std::string> faults{};  ///< Formal faults told so far: each is told once.
     mutable IncreasingRuns increasing{};
-    std::size_t bytesHeld = 0;      ///< The file itself, and what it names.
-    mutable std::size_t spent = 0;  ///< By spend().
+    std::size_t bytesHeld = 0;              ///< The file itself, and what it names.
+    mutable std::size_t spent = 0;          ///< By spend().
+    mutable std::size_t jointMatrices = 0;  ///< Made of skins so far.
 
     /// The place of `list[index]`, as exact as the format allows.
     SourceLoc where(std::string_view list, std::size_t index) const;
@@ -286,6 +287,8 @@ public:
     void expect(const std::vector<std::pair<int, Deformation>>& wanted);
     /// The drawable primitives of a mesh.
     const std::vector<Part>& parts(int mesh, const Deformation& deformation);
+    /// Of primitives and of their targets, so far.
+    std::size_t readings() const { return readings_; }
 
 private:
     std::optional<Mesh> readPrimitive(int mesh, std::size_t primitive, const Deformation& deformation, Part& part);

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "core/LimitedFiles.h"
 #include "scene/GltfParts.h"
 
 namespace crevice::gltf {
@@ -105,7 +106,7 @@ void Resources::readBuffer(std::size_t index, BufferPart& buffer) {
             file_.fail("buffers", index,
                        fmt::format("'{}' has {} bytes, 'byteLength' says {}", shown, size, buffer.byteLength),
                        "the file may be truncated: export or download it again");
-        bytes = keep(readBytes(path, bytesLeft_));
+        bytes = keep(readBytesWithin(path, bytesLeft_));
         bytesLeft_ -= bytes.size();
         read_.emplace(path, bytes);
     }
@@ -187,7 +188,7 @@ void Resources::readImages() {
             file_.lack("images", i, fmt::format("no file '{}': shown white", path.filename().string()));
             continue;
         }
-        image.bytes = keep(readBytes(path, bytesLeft_));
+        image.bytes = keep(readBytesWithin(path, bytesLeft_));
         bytesLeft_ -= image.bytes.size();
         read_.emplace(path, image.bytes);
     }

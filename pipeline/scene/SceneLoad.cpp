@@ -1,7 +1,7 @@
 // Scene files by their ending, and documents from disk.
 #include <fmt/format.h>
 
-#include "core/Files.h"
+#include "core/LimitedFiles.h"
 #include "scene/SceneAsset.h"
 
 namespace crevice {
@@ -11,7 +11,7 @@ namespace fs = std::filesystem;
 Scene loadSceneAsset(const fs::path& path, const LoadOptions& options) {
     const Limits& limits = options.limits;
     const Value document = parseJson(
-        readText(path), path.string(),
+        readTextWithin(path, limits.maxFileBytes), path.string(),
         {.maxBytes = limits.maxFileBytes, .maxDepth = limits.maxDocumentDepth, .maxNodes = limits.maxDocumentValues});
     Scene scene = readSceneAsset(document, fs::absolute(path).parent_path(), options);
     if (scene.name.empty()) scene.name = path.stem().stem().string();

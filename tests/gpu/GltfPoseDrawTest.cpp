@@ -56,7 +56,8 @@ protected:
         for (int corner = 0; corner < 4; ++corner) normals.insert(normals.end(), {normal.x, normal.y, normal.z});
         const std::string attributes = "\"POSITION\": " + std::to_string(position) +
                                        ", \"NORMAL\": " + std::to_string(model.accessor("VEC3", normals));
-        return model.mesh(ModelText::primitive(attributes, model.rectangleIndices(), -1, more));
+        const int dull = model.add("materials", R"({"pbrMetallicRoughness": {"metallicFactor": 0}})");
+        return model.mesh(ModelText::primitive(attributes, model.rectangleIndices(), dull, more));
     }
     /// Lit from the upper left: no direction looks like another.
     glm::vec3 litMiddle(const ModelText& model) {
@@ -177,11 +178,11 @@ TEST_F(GltfPoseDraw, BentPartsAreLitAsTheyLie) {
     for (int corner = 0; corner < 4; ++corner) weights.insert(weights.end(), {1, 0, 0, 0});
     const int position = skinned.rectangle(glm::vec2(-1), glm::vec2(1));
     const int normal = skinned.accessor("VEC3", std::vector<float>{0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1});
-    skinned.mesh(ModelText::primitive("\"POSITION\": " + std::to_string(position) +
-                                          ", \"NORMAL\": " + std::to_string(normal) +
-                                          ", \"JOINTS_0\": " + std::to_string(skinned.accessor("VEC4", joints)) +
-                                          ", \"WEIGHTS_0\": " + std::to_string(skinned.accessor("VEC4", weights)),
-                                      skinned.rectangleIndices(), -1));
+    skinned.mesh(ModelText::primitive(
+        "\"POSITION\": " + std::to_string(position) + ", \"NORMAL\": " + std::to_string(normal) +
+            ", \"JOINTS_0\": " + std::to_string(skinned.accessor("VEC4", joints)) +
+            ", \"WEIGHTS_0\": " + std::to_string(skinned.accessor("VEC4", weights)),
+        skinned.rectangleIndices(), skinned.add("materials", R"({"pbrMetallicRoughness": {"metallicFactor": 0}})")));
     skinned.top = ", \"skins\": [{\"joints\": [0]}]";
     skinned.root(turn);
     skinned.root("\"mesh\": 0, \"skin\": 0");

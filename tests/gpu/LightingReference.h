@@ -31,10 +31,13 @@ inline glm::dvec3 referenceBrdf(const ReferencePoint& p, const glm::dvec3& toLig
     const double lambdaV = nl * std::sqrt(nv * nv * (1 - a2) + a2);
     const double lambdaL = nv * std::sqrt(nl * nl * (1 - a2) + a2);
     const double v = 0.5 / (lambdaV + lambdaL);
-    const glm::dvec3 diffuse = p.baseColor * (1 - p.metallic);
-    const glm::dvec3 f0 = glm::dvec3(0.04) * (1 - p.metallic) + p.baseColor * p.metallic;
-    const glm::dvec3 fresnel = f0 + (glm::dvec3(1) - f0) * std::pow(1 - vh, 5);
-    return ((glm::dvec3(1) - fresnel) * diffuse / kReferencePi + fresnel * d * v) * nl;
+    const glm::dvec3 diffuse = p.baseColor / kReferencePi;
+    const glm::dvec3 specular(d * v);
+    const double grazing = std::pow(1 - vh, 5);
+    const double dielectricFresnel = 0.04 + (1 - 0.04) * grazing;
+    const glm::dvec3 dielectric = diffuse * (1 - dielectricFresnel) + specular * dielectricFresnel;
+    const glm::dvec3 metal = specular * (p.baseColor + (glm::dvec3(1) - p.baseColor) * grazing);
+    return (dielectric * (1 - p.metallic) + metal * p.metallic) * nl;
 }
 
 inline glm::dvec3 referenceLight(const ReferencePoint& p, const Light& light) {

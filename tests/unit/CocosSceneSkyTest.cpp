@@ -100,10 +100,18 @@ TEST(CocosSceneSky, PicturesOfEightBitsAreHeldToTheLimits) {
     limits.maxImageSide = 8;
     limits.maxImagePixels = 31;
     EXPECT_TRUE(contains(errorOf([&] { readSky(asset, quiet, limits); }), "--limit image-pixels="));
+    // As 16 bytes a pixel it may take an eighth, as .hdr and .exr may.
+    limits = {};
+    limits.maxImageBytes = 8 * 16 * 32;
+    EXPECT_EQ(readSky(asset, quiet, limits).radiance.width, 8u);
+    limits.maxImageBytes -= 1;
+    EXPECT_TRUE(contains(errorOf([&] { readSky(asset, quiet, limits); }), "has 8 x 4 pixels, the limit is 31"));
+    EXPECT_TRUE(contains(errorOf([&] { readSky(asset, quiet, limits); }), "--limit image-bytes="));
     limits = {};
     limits.maxFileBytes = 8;
-    EXPECT_TRUE(
-        contains(errorOf([&] { readSky(asset, quiet, limits); }), "it is larger than the 8 bytes that are read"));
+    const std::string tooLarge = errorOf([&] { readSky(asset, quiet, limits); });
+    EXPECT_TRUE(contains(tooLarge, "it is larger than the 8 bytes that are read")) << tooLarge;
+    EXPECT_TRUE(contains(tooLarge, "--limit file-bytes=")) << tooLarge;
 }
 
 TEST(CocosSceneSky, EndingsOfPanoramasMayBeInCapitals) {

@@ -47,6 +47,12 @@ TEST(PictureName, AMarkInAFoldersNameIsTheFolders) {
     EXPECT_EQ(sampled.sampler.minFilter, Filter::Nearest);
 }
 
+TEST(PictureName, AMarkInTheNameOfAMissingFileIsTheFiles) {
+    EXPECT_EQ(readPictureName("a#b.png").file, "a#b.png");
+    EXPECT_EQ(readPictureName("a#b.png#clamp").file, "a#b.png");
+    EXPECT_EQ(readPictureName("a#b.png#clamp").sampler.wrapU, SamplerWrap::Clamp);
+}
+
 TEST(PictureName, UnknownWordsAreErrors) {
     for (const char* words : {"blurred", "clamp-w", "nearest-max", "linearly"}) {
         const std::string text = test::errorOf([&] { readPictureName(std::string("noise.png#") + words); });

@@ -191,6 +191,12 @@ TEST(FrameData, AutomaticExposureCountsLampsByTheSceneSize) {
     scene.lights = {lightOf(LightType::Point, 10), lightOf(LightType::Spot, 10)};
     const float reach = 13.0f / 4;
     EXPECT_NEAR(whiteAt(scene, 20 / (reach * reach)), 0.8f, 1e-5f);
+    // Outside of the scene its distance counts as well: 5 beyond a corner.
+    const glm::vec3 corner(1.5f, 2, 6);
+    scene.lights[0].position = scene.lights[1].position = corner + glm::vec3(3, 4, 0);
+    EXPECT_NEAR(whiteAt(scene, 20 / ((reach + 5) * (reach + 5))), 0.8f, 1e-5f);
+    scene.lights[0].position = scene.lights[1].position = 0.9f * corner;
+    EXPECT_NEAR(whiteAt(scene, 20 / (reach * reach)), 0.8f, 1e-5f);
     // Luminance, not a channel's value: green counts most.
     scene.lights.resize(1);
     scene.lights[0].color = {0, 1, 0};

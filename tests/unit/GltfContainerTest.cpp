@@ -122,13 +122,30 @@ TEST(GltfContainer, WhatIsNoJsonIsRefusedWithItsPlace) {
         {"INVALID_JSON", Refused, "[]", "the glTF must be an object, found a list"},
         {"INVALID_JSON", Refused, "{\"asset\": {\"version\": \"2.0\"}", "t.gltf:1:"},
         {"INVALID_JSON", Refused, "{\"asset\": {\"version\": \"2.0\"}} x", "t.gltf:1:"},
-        {"INVALID_JSON", Refused, "{\"asset\": {\"version\": \"2.0\"}, \"asset\": {\"version\": \"2.0\"}}", "'asset'"},
         {"INVALID_JSON", Refused, "{\"asset\": {\"version\": \"2.0\"}, \"x\": NaN}", "t.gltf:1:"},
         {"INVALID_JSON", Refused, "{\"asset\": {\"version\": \"2.0\"}, \"x\": \"\xff\"}", "t.gltf:1:"},
         {"INVALID_JSON", Refused, std::string("{\"asset\": \0 {\"version\": \"2.0\"}}", 32), "t.gltf:1:"},
         {"INVALID_JSON", Refused, std::string(100000, '['), "t.gltf:1:"},
     };
     for (const ContainerCase& fault : cases) expectAnswer(fault, "t.gltf");
+}
+
+// Specification, 2.7: keys should be unique; a later value overrides the one before.
+TEST(GltfContainer, OfRepeatedKeysTheLastCounts) {
+    using enum Answer;
+    const char* says = "key 'version' stands twice in an object: the last value counts";
+    const char* object = R"({"asset": {"version": "1.0", "version": "2.0"}})";
+    expectAnswer({"INVALID_JSON", Fault, object, says}, "t.gltf");
+    expectAnswer({"INVALID_JSON", Refused, R"({"asset": {"version": "2.0", "version": "1.0"}})", "t.gltf"}, "t.gltf");
+    GltfText text;
+    text.nodes =
+        R"({"mesh": 7, "translation": [1, 0, 0], "mesh": 0, "translation": [0, 2, 0], "translation": [0, 0, 3]})";
+    const Scene scene = text.load();
+    EXPECT_EQ(glm::vec3(scene.instances.at(0).world[3]), glm::vec3(0, 0, 3));
+    expectAnswer({"INVALID_JSON", Fault,
+                  file(chunk(kJson, padded(R"({"asset": {"version": "2.0"}, "scenes": [], "scenes": [{}]})"))),
+                  "key 'scenes' stands twice"},
+                 "t.glb");
 }
 
 // IMAGE_NON_ENABLED_MIME_TYPE: WebP is read all the same.

@@ -77,6 +77,36 @@ TEST(GltfPose, RotationsTakeTheShorterWay) {
     EXPECT_LT(glm::distance(x, glm::vec3(s, s, 0)), 1e-5f);
 }
 
+// Appendix C: at a quarter of the way (sin(3a/4) v1 + s sin(a/4) v2) / sin a; here a = 60 degrees between quaternions,
+// a turn by 120 about z, of which a quarter is 30.
+TEST(GltfPose, RotationsTurnEvenly) {
+    const float s = std::sqrt(0.75f), r = std::sqrt(0.5f);
+    for (const float sign : {1.0f, -1.0f}) {
+        const Document document = animated("rotation", "LINEAR", {0, 0, 0, 1, 0, 0, sign * s, sign * 0.5f}, "VEC4");
+        EXPECT_LT(glm::distance(glm::vec3(loadWith(document, "go", 1.5f).instances[0].world[0]), glm::vec3(s, 0.5f, 0)),
+                  1e-6f);
+    }
+    // Splines are not evened: without tangents half way is the mean, made a unit quaternion.
+    const Document spline = animated("rotation", "CUBICSPLINE",
+                                     {0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, r, r, 0, 0, 0, 0}, "VEC4");
+    EXPECT_LT(glm::distance(glm::vec3(loadWith(spline, "go", 2.0f).instances[0].world[0]), glm::vec3(r, r, 0)), 1e-6f);
+    // At a quarter 27/32 and 5/32 of the two: the quaternion (0, 0, 5r, 27 + 5r), whose angle is not 22.5 degrees.
+    const float half = std::atan2(5 * r, 27 + 5 * r);
+    EXPECT_LT(glm::distance(glm::vec3(loadWith(spline, "go", 1.5f).instances[0].world[0]),
+                            glm::vec3(std::cos(2 * half), std::sin(2 * half), 0)),
+              1e-6f);
+}
+
+// Both tangents of the segment, in units per second: at t = 1/4 of 2 s the weights are 27/32 and 5/32 of the values,
+// 2 · 9/64 of the tangent out of the first key and -2 · 3/64 of that into the second.
+TEST(GltfPose, TangentsCountByTheSecond) {
+    const Document spline =
+        animated("translation", "CUBICSPLINE", {99, 99, 99, 32, 0, 0, 0, 32, 0, 0, 0, 32, 0, 64, 64, 99, 99, 99});
+    EXPECT_EQ(originOf(loadWith(spline, "go", 1.5f)), glm::vec3(27, 10 + 9, 10 - 3));
+    EXPECT_EQ(originOf(loadWith(spline, "go", 1.0f)), glm::vec3(32, 0, 0));
+    EXPECT_EQ(originOf(loadWith(spline, "go", 3.0f)), glm::vec3(0, 64, 64));
+}
+
 Document morphing() {
     Document document = animated("weights", "LINEAR", {0, 1}, "SCALAR");
     append<float>(document.bytes, {0, 0, 2, 0, 0, 2, 0, 0, 2, 0, 0, 2});

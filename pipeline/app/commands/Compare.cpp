@@ -15,7 +15,7 @@
 #include "app/commands/OutputFiles.h"
 #include "core/Error.h"
 #include "core/Exr.h"
-#include "core/Files.h"
+#include "core/LimitedFiles.h"
 #include "core/Limits.h"
 
 namespace crevice {
@@ -40,7 +40,7 @@ std::optional<double> readThreshold(const char* option, const std::string& text)
 
 /// How many of red, green and blue the file gives values for: 1 for an EXR of R alone, 2 for RG, else 3.
 int colourChannels(const std::string& path, const Limits& limits) {
-    const std::vector<std::byte> bytes = readBytes(path, limits.maxFileBytes);
+    const std::vector<std::byte> bytes = readBytesWithin(path, limits.maxFileBytes);
     return looksLikeExr(bytes) ? exrColourChannels(bytes, path, limits) : 3;
 }
 
