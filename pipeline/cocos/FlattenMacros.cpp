@@ -2,10 +2,18 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "cocos/FlattenRun.h"
 
 namespace crevice::cocos {
+namespace {
+
+constexpr int kMaxHeadDepth = 16;       ///< Macros in macros that are looked through for the head of a declaration.
+constexpr std::size_t kMaxHeads = 16;   ///< In one declaration.
+constexpr std::size_t kMaxCopies = 16;  ///< Of a declaration with several chosen heads.
+
+}  // namespace
 
 void Flattener::noteChoice(const MacroDefinition& macro, Origin origin) {
     const std::size_t number = choices_.add(macro);
@@ -27,32 +35,33 @@ std::size_t Flattener::expandLine(const Lines& lines, std::size_t at, Pending& p
     while (!stopped_) {
         std::size_t call = table_->findCall(text, from);
         if (call == std::string_view::npos) break;
-        const std::string_view name = leadingName(text.substr(call));
-        if (isOpenChoice(name)) {
-            keep(call);
-            const SourceLoc where = placeAt(text, call, name.size(), lines.origin(at + used - 1));
-            if (!expandedFrom_) callPlace_ = where;
-            const std::size_t last = expandChoices(lines, at + used - 1, call, name, from, pending);
+        const std::string_view word = leadingName(text.substr(call)), name = calledBy(word);
+        const std::size_t behind = call + word.size(), line = at + used - 1;
+        const Origin origin = lines.origin(line);
+        const SourceLoc where = placeAt(text, call, word.size(), origin);
+        keep(call);
+        if (!expandedFrom_) callPlace_ = where;
+        const std::string_view head = chosenHeadOf(name);
+        const StatementRest rest = head.empty() ? StatementRest{} : restOfDeclaration(lines, line, call);
+        if (rest.found || isOpenChoice(name)) {
+            from = rest.found ? rest.end : behind;
+            const std::size_t last = rest.found ? expandDeclaration(head, rest, origin, pending)
+                                                : expandChoices(lines, line, name, from, pending);
             used = last - at + 1;
             text = lines.text(last);
             continue;
         }
-        const MacroDefinition* macro = latest_.contains(name) ? latest_[name] : table_->find(name);
+        const MacroDefinition* macro = definitionOf(name);
         const bool active = macro == nullptr || std::find(active_.begin(), active_.end(), name) != active_.end();
-        keep(call);
-        const Origin origin = lines.origin(at + used - 1);
-        const SourceLoc where = placeAt(text, call, name.size(), origin);
-        if (!expandedFrom_) callPlace_ = where;
         CallArguments arguments;
-        if (!active && macro->functionLike)
-            arguments = readArguments(lines, at + used - 1, call + name.size(), limits_.maxArgument);
+        if (!active && macro->functionLike) arguments = readArguments(lines, line, behind, limits_.maxArgument);
         if (active || (macro->functionLike && !arguments.found)) {
             if (arguments.unclosed) reportUnclosed(name, where, problems_);
             stopped_ = stopped_ || arguments.unclosed;
-            keep(call + name.size());
+            keep(behind);
             continue;
         }
-        from = call + name.size();
+        from = behind;
         if (macro->functionLike) {
             used = arguments.line - at + 1;
             text = lines.text(arguments.line);
@@ -62,8 +71,9 @@ std::size_t Flattener::expandLine(const Lines& lines, std::size_t at, Pending& p
                 continue;
             }
         }
+        const bool begins = beginsStatement(pending);
         endedInDirective_ = expand(*macro, arguments.values, origin, pending);
-        if (endedInDirective_) {
+        if (endedInDirective_ && begins) {
             from = std::min(text.find_first_not_of(" \t", from), text.size());
             if (from < text.size() && text[from] == ';') ++from;  // It ended a call that is no statement now.
         }
@@ -73,26 +83,74 @@ std::size_t Flattener::expandLine(const Lines& lines, std::size_t at, Pending& p
     return used;
 }
 
-bool Flattener::hasOpenChoice(std::string_view text, std::string_view name) const {
-    for (std::size_t at = 0; (at = table_->findCall(text, at)) != std::string_view::npos;) {
-        const std::string_view call = leadingName(text.substr(at));
-        if (call != name && isOpenChoice(call)) return true;
-        at += call.size();
+std::string_view Flattener::calledBy(std::string_view name) const {
+    for (std::size_t i = 0; i < limits_.maxDepth && !isOpenChoice(name); ++i) {
+        const MacroDefinition* macro = definitionOf(name);
+        if (macro == nullptr || macro->functionLike || macro->body.size() != 1 ||
+            std::find(active_.begin(), active_.end(), name) != active_.end())
+            break;
+        const std::string_view body = trimBlank(macro->body[0].text);
+        if (body.empty() || leadingName(body) != body || !table_->isExpanded(body)) break;
+        name = body;
     }
-    return false;
+    return name;
 }
 
-template <class Lines>
-StatementRest Flattener::restOfDeclaration(const Lines& lines, std::size_t at, std::size_t from,
-                                           std::string_view name) {
+void Flattener::addOpenChoices(std::string_view text, std::vector<std::string_view>& names, int depth) const {
+    for (std::size_t at = 0; (at = table_->findCall(text, at)) != std::string_view::npos;) {
+        const std::string_view call = leadingName(text.substr(at));
+        at += call.size();
+        const bool isOpen = isOpenChoice(call);
+        if (isOpen && std::find(names.begin(), names.end(), call) == names.end()) names.push_back(call);
+        const MacroDefinition* macro = isOpen ? nullptr : definitionOf(call);
+        if (macro == nullptr || macro->bearsDirectives || depth >= kMaxHeadDepth || names.size() > kMaxHeads) continue;
+        if (std::find(active_.begin(), active_.end(), call) != active_.end()) continue;
+        for (const auto& part : macro->body) addOpenChoices(part.text, names, depth + 1);
+    }
+}
+
+bool Flattener::isHeadChoice(std::string_view name) {
     const auto& choices = choices_.of(name);
-    const bool declares = std::any_of(choices.begin(), choices.end(), [&](const MacroDefinition* macro) {
+    return std::any_of(choices.begin(), choices.end(), [&](const MacroDefinition* macro) {
         return macro->declares || (!macro->bearsDirectives && macro->body.size() == 1 &&
                                    table_->findCall(macro->body[0].text, 0) != std::string_view::npos);
     });
-    if (!declares) return {};
-    return readStatementRest(lines, at, from, limits_.maxArgument,
-                             [&](std::string_view part) { return hasOpenChoice(part, name); });
+}
+
+std::string_view Flattener::chosenHeadOf(std::string_view name) {
+    if (choices_.isEmpty()) return {};
+    if (isOpenChoice(name)) return isHeadChoice(name) ? name : std::string_view();
+    const MacroDefinition* macro = definitionOf(name);
+    if (macro == nullptr || macro->bearsDirectives || macro->body.empty()) return {};
+    const std::string_view last = trimBlank(macro->body.back().text);
+    if (last.empty() || last.ends_with(';') || last.ends_with('}')) return {};
+    std::vector<std::string_view> names;
+    for (const auto& part : macro->body) addOpenChoices(part.text, names, 1);
+    const auto head = std::find_if(names.begin(), names.end(), [&](std::string_view one) { return isHeadChoice(one); });
+    return head == names.end() ? std::string_view() : *head;
+}
+
+template <class Lines>
+StatementRest Flattener::restOfDeclaration(const Lines& lines, std::size_t at, std::size_t from) {
+    std::vector<std::string_view> names;
+    return readStatementRest(lines, at, from, limits_.maxArgument, [&](std::string_view part) {
+        addOpenChoices(part, names);
+        std::size_t copies = 1;
+        for (const std::string_view name : names) copies = std::min(copies * choices_.of(name).size(), kMaxCopies + 1);
+        return copies > kMaxCopies && names.size() > 1;
+    });
+}
+
+bool Flattener::beginsStatement(const Pending& pending) const {
+    std::string_view before = trimBlank(pending.text);
+    if (captured_ != nullptr) return false;
+    if (before.empty()) {
+        before = trimBlank(std::string_view(out_.flat.text));
+        while (before.ends_with('\n')) before = trimBlank(before.substr(0, before.size() - 1));
+        const auto begin = before.rfind('\n');
+        if (trimBlank(before.substr(begin == std::string_view::npos ? 0 : begin + 1)).starts_with('#')) return true;
+    }
+    return before.empty() || std::string_view(";{})").find(before.back()) != std::string_view::npos;
 }
 
 std::string Flattener::takeHead(Pending& pending) {
@@ -103,50 +161,18 @@ std::string Flattener::takeHead(Pending& pending) {
     return head;
 }
 
-template <class Lines>
-std::size_t Flattener::expandChoices(const Lines& lines, std::size_t at, std::size_t call, std::string_view name,
-                                     std::size_t& from, Pending& pending) {
+template <class Write>
+void Flattener::writeEach(std::string_view name, Origin origin, Write write) {
     const std::vector<const MacroDefinition*> choices = choices_.of(name);
-    const Origin origin = lines.origin(at);
-    CallArguments arguments;
-    if (std::any_of(choices.begin(), choices.end(), [](const auto* macro) { return macro->functionLike; }))
-        arguments = readArguments(lines, at, call + name.size(), limits_.maxArgument);
-    if (arguments.unclosed) {
-        reportUnclosed(name, callPlace_, problems_);
-        stopped_ = true;  // The next would look through as many lines again.
-        from = call + name.size();
-        return at;
-    }
-    std::size_t last = arguments.found ? arguments.line : at;
-    from = arguments.found ? arguments.end : call + name.size();
-    const StatementRest rest = restOfDeclaration(lines, last, from, name);
-    const std::string head = rest.found ? takeHead(pending) : std::string();
-    const std::string_view text = lines.text(last);
-    const std::size_t behind = std::min(text.find_first_not_of(" \t", from), text.size());
-    const bool statement = behind < text.size() && text[behind] == ';';
-    if (statement) from = behind + 1;
-    if (rest.found) {
-        last = rest.line;
-        from = rest.end;
-    }
-    flush(pending);
     const MacroDefinition* const latest = latest_[name];
     choices_.take(name);
     const std::size_t included = included_.size();
     std::vector<const SourceText*> ofCopies;
-    bool allEnd = true;
     for (std::size_t i = 0; i < choices.size() && !stopped_; ++i) {
         latest_[name] = choices[i];
         emitDirective(fmt::format("#{} {} == {}", i == 0 ? "if" : "elif", choiceOf(name), i + 1), origin,
                       *choices[i]->source);
-        Pending copy{head, origin};
-        const bool ended = expandChoice(*choices[i], arguments, origin, copy);
-        if (rest.found && !(statement && ended))
-            writeLines(rest.lines, copy, *choices.front()->source, false);
-        else if (statement && !ended)
-            copy.text += ';';
-        allEnd = allEnd && (ended || statement || rest.found);
-        flush(copy);
+        write(*choices[i]);
         const auto ofCopy = included_.cutTo(included);
         ofCopies.insert(ofCopies.end(), ofCopy.begin(), ofCopy.end());
     }
@@ -154,6 +180,48 @@ std::size_t Flattener::expandChoices(const Lines& lines, std::size_t at, std::si
     emitDirective("#endif", origin, *choices.front()->source);
     choices_.release();
     latest_[name] = latest;
+}
+
+std::size_t Flattener::expandDeclaration(std::string_view head, const StatementRest& rest, Origin origin,
+                                         Pending& pending) {
+    const std::string before = takeHead(pending);
+    writeEach(head, origin, [&](const MacroDefinition& macro) {
+        Pending copy{before, origin};
+        writeLines(rest.lines, copy, *macro.source, false);
+        flush(copy);
+    });
+    endedInDirective_ = true;
+    return rest.line;
+}
+
+template <class Lines>
+std::size_t Flattener::expandChoices(const Lines& lines, std::size_t at, std::string_view name, std::size_t& from,
+                                     Pending& pending) {
+    const std::vector<const MacroDefinition*>& choices = choices_.of(name);
+    const Origin origin = lines.origin(at);
+    CallArguments arguments;
+    if (std::any_of(choices.begin(), choices.end(), [](const auto* macro) { return macro->functionLike; }))
+        arguments = readArguments(lines, at, from, limits_.maxArgument);
+    if (arguments.unclosed) {
+        reportUnclosed(name, callPlace_, problems_);
+        stopped_ = true;  // The next would look through as many lines again.
+        return at;
+    }
+    const std::size_t last = arguments.found ? arguments.line : at;
+    if (arguments.found) from = arguments.end;
+    const std::string_view text = lines.text(last);
+    const std::size_t behind = std::min(text.find_first_not_of(" \t", from), text.size());
+    const bool statement = behind < text.size() && text[behind] == ';' && beginsStatement(pending);
+    if (statement) from = behind + 1;
+    flush(pending);
+    bool allEnd = true;
+    writeEach(name, origin, [&](const MacroDefinition& macro) {
+        Pending copy{{}, origin};
+        const bool ended = expandChoice(macro, arguments, origin, copy);
+        if (statement && !ended) copy.text += ';';
+        allEnd = allEnd && (ended || statement);
+        flush(copy);
+    });
     endedInDirective_ = allEnd;
     return last;
 }
@@ -175,8 +243,52 @@ bool Flattener::expandChoice(const MacroDefinition& macro, const CallArguments& 
     return false;
 }
 
-bool Flattener::expand(const MacroDefinition& macro, const std::vector<std::string>& arguments, Origin call,
+bool Flattener::leadsTo(std::string_view text, std::string_view name, int depth) const {
+    for (std::size_t at = 0; (at = table_->findCall(text, at)) != std::string_view::npos;) {
+        const std::string_view call = leadingName(text.substr(at));
+        if (call == name) return true;
+        at += call.size();
+        const MacroDefinition* macro = definitionOf(call);
+        if (macro == nullptr || depth >= kMaxHeadDepth) continue;
+        if (std::any_of(macro->body.begin(), macro->body.end(),
+                        [&](const auto& part) { return leadsTo(part.text, name, depth + 1); }))
+            return true;
+    }
+    return false;
+}
+
+void Flattener::expandArguments(const MacroDefinition& macro, std::vector<std::string>& arguments, Origin origin) {
+    const auto isPasted = [](const auto& part) { return part.text.find("##") != std::string_view::npos; };
+    if (std::any_of(macro.body.begin(), macro.body.end(), isPasted)) return;
+    for (std::string& argument : arguments) {
+        if (table_->findCall(argument, 0) == std::string_view::npos) continue;
+        if (!leadsTo(argument, macro.name) && std::none_of(active_.begin(), active_.end(), [&](std::string_view name) {
+                return leadsTo(argument, name);
+            }))
+            continue;
+        BodyLines lines;
+        for (std::size_t at = 0; at <= argument.size();) {
+            const std::size_t end = std::min(argument.find('\n', at), argument.size());
+            lines.texts.push_back(argument.substr(at, end - at));
+            lines.origins.push_back(origin);
+            at = end + 1;
+        }
+        std::string written;
+        std::string* const outer = std::exchange(captured_, &written);
+        Pending pending;
+        writeLines(lines, pending, *macro.source, false);
+        flush(pending);
+        captured_ = outer;
+        if (written.ends_with('\n') && written.find('#') == std::string::npos) written.pop_back();
+        argument = (written.starts_with('#') ? "\n" : "") + written;
+        written_ += argument.size();
+    }
+}
+
+bool Flattener::expand(const MacroDefinition& macro, const std::vector<std::string>& given, Origin call,
                        Pending& pending) {
+    std::vector<std::string> arguments = given;
+    expandArguments(macro, arguments, call);
     const bool outermost = !expandedFrom_;
     if (outermost) {
         expandedFrom_ = call;
@@ -191,9 +303,15 @@ bool Flattener::expand(const MacroDefinition& macro, const std::vector<std::stri
     const bool single = macro.body.size() == 1 && !macro.bearsDirectives;
     BodyLines lines;
     for (const auto& part : macro.body) {
-        lines.texts.push_back(substitute(part.text, macro.parameters, arguments));
-        lines.origins.push_back(single ? call : Origin{file, part.line});
-        written_ += lines.texts.back().size();
+        std::string text = substitute(part.text, macro.parameters, arguments);
+        written_ += text.size();
+        const Origin origin = single ? call : Origin{file, part.line};
+        for (std::size_t end; (end = text.find('\n')) != std::string::npos; text.erase(0, end + 1)) {
+            lines.texts.push_back(text.substr(0, end));  // An argument with conditions.
+            lines.origins.push_back(origin);
+        }
+        lines.texts.push_back(std::move(text));
+        lines.origins.push_back(origin);
     }
     if (written_ > limits_.maxBytes) stopExpanding(macro);
     const bool endsInDirective = writeLines(lines, pending, *macro.source, !single);

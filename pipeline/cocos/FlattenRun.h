@@ -54,28 +54,59 @@ private:
         return choices_.isOpen(name) && std::find(active_.begin(), active_.end(), name) == active_.end();
     }
 
-    /// Does a text hold a call whose definition is not chosen, but for those of `name`?
-    bool hasOpenChoice(std::string_view text, std::string_view name) const;
+    const MacroDefinition* definitionOf(std::string_view name) const {
+        const auto latest = latest_.find(name);
+        return latest != latest_.end() ? latest->second : table_->find(name);
+    }
+
+    /// Follows `#define F G` to G: a call of F is one of G.
+    std::string_view calledBy(std::string_view name) const;
+
+    /// Adds the macros whose definition is not chosen and that a text leads to, through others' bodies too.
+    void addOpenChoices(std::string_view text, std::vector<std::string_view>& names, int depth = 0) const;
+
+    /// Does the macro stand for a declaration or the head of one?
+    bool isHeadChoice(std::string_view name);
+
+    /// The head that a condition chooses, where the macro is one or its body ends behind one. Empty when there is none.
+    std::string_view chosenHeadOf(std::string_view name);
 
     /// A declaration whose head a condition chooses is written whole for each head: of one in pieces nobody could tell
-    /// what it declares. Of several heads in one the last: each would double the text.
+    /// what it declares. Not found where several heads in one would multiply the text.
     template <class Lines>
-    StatementRest restOfDeclaration(const Lines& lines, std::size_t at, std::size_t from, std::string_view name);
+    StatementRest restOfDeclaration(const Lines& lines, std::size_t at, std::size_t from);
+
+    /// True when the call that begins where `pending` ends begins a statement.
+    bool beginsStatement(const Pending& pending) const;
+
+    /// Calls `write` for each definition of the macro, in branches of one condition.
+    template <class Write>
+    void writeEach(std::string_view name, Origin origin, Write write);
 
     /// What the line that is being put together has of the present statement; the rest is written.
     std::string takeHead(Pending& pending);
 
     /// Writes the call of a macro whose definition a condition chooses once for each: a line of code may be broken
-    /// anywhere. Returns the line on which the call ends; `from` is the column behind it.
+    /// anywhere. Returns the line on which it ends; `from` is the column behind its name, and then behind the call.
     template <class Lines>
-    std::size_t expandChoices(const Lines& lines, std::size_t at, std::size_t call, std::string_view name,
-                              std::size_t& from, Pending& pending);
+    std::size_t expandChoices(const Lines& lines, std::size_t at, std::string_view name, std::size_t& from,
+                              Pending& pending);
+
+    /// Writes a declaration with its chosen head once for each. Returns the line on which it ends.
+    std::size_t expandDeclaration(std::string_view head, const StatementRest& rest, Origin origin, Pending& pending);
 
     /// One of the definitions: those without parameters leave the brackets standing, those with them need brackets.
     bool expandChoice(const MacroDefinition& macro, const CallArguments& arguments, Origin origin, Pending& pending);
 
+    /// True when a text comes to name the macro, through others' bodies too.
+    bool leadsTo(std::string_view text, std::string_view name, int depth = 0) const;
+
+    /// An argument that names the macro it is given to, or one around it, is expanded before it is put in: within
+    /// themselves macros are not.
+    void expandArguments(const MacroDefinition& macro, std::vector<std::string>& arguments, Origin origin);
+
     /// Writes a macro's body. True when its last line was a preprocessor line.
-    bool expand(const MacroDefinition& macro, const std::vector<std::string>& arguments, Origin call, Pending& pending);
+    bool expand(const MacroDefinition& macro, const std::vector<std::string>& given, Origin call, Pending& pending);
 
     /// True when the last line was a preprocessor line. The first one goes on where `pending` is, if not `apart`.
     bool writeLines(const BodyLines& lines, Pending& pending, const SourceText& source, bool apart);
@@ -100,6 +131,7 @@ private:
     IncludedTexts included_;
     std::vector<const SourceText*> stack_;
     std::vector<std::string_view> active_;  ///< Macros being expanded: they are not expanded within themselves.
+    std::string* captured_ = nullptr;       ///< What is written is an argument that goes into a macro's body.
     std::optional<Origin> expandedFrom_;    ///< The author's call that writes the present lines.
     SourceLoc callPlace_;                   ///< Of that call.
     std::size_t includes_ = 0, expansions_ = 0, written_ = 0;

@@ -64,6 +64,7 @@ std::size_t Flattener::emitLine(const SourceLines& lines, std::size_t at) {
 }
 
 void Flattener::emitDirective(std::string_view text, Origin origin, const SourceText& source) {
+    if (captured_ != nullptr) return push(text, origin);
     const Directive directive = readDirective(text);
     if (directive.kind == LineKind::Include) {
         include(directive.rest, text, origin, source);
@@ -136,6 +137,10 @@ void Flattener::pragma(std::string_view rest, std::string_view line, Origin orig
 }
 
 void Flattener::push(std::string_view line, Origin origin) {
+    if (captured_ != nullptr) {
+        captured_->append(line).push_back('\n');
+        return;
+    }
     write(line, origin, expandedFrom_);
     if (out_.flat.text.size() > limits_.maxBytes)
         stop(line, origin, fmt::format("the flattened stage is larger than {} MB", limits_.maxBytes >> 20));

@@ -91,10 +91,10 @@ bool FunctionWalk::run() {
 bool FunctionWalk::take(char c) {
     if (c == '{') {
         if (depth_.paren > 0 && depth_.brace == 0) return false;
-        if (depth_.brace++ == 0 && last_ == ')' && !begin()) return false;
+        if (depth_.brace++ == 0 && last_ == ')') begin();
     } else if (c == '}') {
         if (--depth_.brace < 0) return false;
-        if (depth_.brace == 0 && isOpen_ && !end()) return false;
+        if (depth_.brace == 0 && isOpen_) end(at_ + 1);
         if (depth_.brace == 0) finishStatement();
     } else if (c == '(' && depth_.brace == 0) {
         if (depth_.paren++ == 0) {
@@ -116,20 +116,20 @@ void FunctionWalk::finishStatement() {
 }
 
 /// A body begins whose list did at `paren_`. Of what is not understood nothing is said.
-bool FunctionWalk::begin() {
+void FunctionWalk::begin() {
+    if (isOpen_) return;  // Another head of it, in another branch.
     const std::string_view name = nameBefore(text_, paren_);
     const std::string_view type = name.empty() ? name : nameBefore(text_, offsetOf(name));
-    if (type.empty()) return true;
-    if (offsetOf(type) < directiveEnd_) return false;
+    if (type.empty() || offsetOf(type) < directiveEnd_) return;
     const std::string_view before = text_.substr(statementBegin_, offsetOf(type) - statementBegin_);
     if (unfinished_ || definesInList_ || macros_.contains(name) || isStorage(name) || !isType(type, 0) ||
         !allWords(before, [this](std::string_view word) { return isQualifier(word, 0); }))
-        return true;
+        return;
     std::size_t start = statementBegin_;
     while (isBlank(text_[start])) ++start;
     functions.push_back({name, start, start});
     branchesAtBegin_ = branches_.size();
-    return isOpen_ = true;
+    isOpen_ = true;
 }
 
 bool FunctionWalk::isType(std::string_view word, int depth) const {
@@ -152,11 +152,14 @@ bool FunctionWalk::isQualifier(std::string_view word, int depth) const {
            });
 }
 
-bool FunctionWalk::end() {
-    if (branches_.size() != branchesAtBegin_) return false;
-    functions.back().end = at_ + 1;
+/// A body ends. What ends in a branch goes on in the others: it is whole at their #endif.
+void FunctionWalk::end(std::size_t at) {
+    if (branches_.size() > branchesAtBegin_) {
+        functions.back().stays = true;
+        return;
+    }
+    functions.back().end = at;
     isOpen_ = false;
-    return true;
 }
 
 bool FunctionWalk::takeDirective() {
@@ -168,16 +171,23 @@ bool FunctionWalk::takeDirective() {
         directiveEnd_ = statementBegin_ = end;
     }
     const bool defines = kind == LineKind::Define || kind == LineKind::Undef;
-    if (isOpen_ && defines) functions.back().defines = true;
+    if (isOpen_ && defines) functions.back().stays = true;
     if (depth_.paren > 0 && defines) definesInList_ = true;
     if (!isConditional(kind)) return true;
     if (kind == LineKind::If || kind == LineKind::Ifdef || kind == LineKind::Ifndef) {
         branches_.push_back(depth_);
         return true;
     }
-    if (branches_.empty() || !(branches_.back() == depth_)) return false;
-    if (isOpen_ && branches_.size() <= branchesAtBegin_) return false;
-    if (kind == LineKind::Endif) branches_.pop_back();
+    if (branches_.empty()) return false;
+    if (isOpen_ && (!(branches_.back() == depth_) || branches_.size() <= branchesAtBegin_))
+        functions.back().stays = true;
+    if (kind != LineKind::Endif) {
+        depth_ = branches_.back();
+        return true;
+    }
+    branches_.pop_back();
+    branchesAtBegin_ = std::min(branchesAtBegin_, branches_.size());
+    if (isOpen_ && depth_.brace == 0 && branches_.size() == branchesAtBegin_) this->end(end);
     return true;
 }
 

@@ -25,7 +25,7 @@ class FunctionWalk {
 public:
     FunctionWalk(std::string_view text, const MacroBodies& macros) : text_(text), macros_(macros) {}
 
-    /// False when conditions and braces cross.
+    /// False when braces and conditions do not come out even. Where they cross in a function, it counts as called.
     bool run();
 
     std::vector<FunctionRange> functions;
@@ -37,8 +37,8 @@ private:
     };
 
     bool take(char c);
-    bool begin();
-    bool end();
+    void begin();
+    void end(std::size_t at);
     bool takeDirective();
     void noteUnfinished(std::size_t directive, bool turns);
     void finishStatement();

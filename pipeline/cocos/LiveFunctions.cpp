@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <unordered_set>
 
 #include "cocos/FunctionWalk.h"
 #include "cocos/SourceText.h"
@@ -30,12 +31,13 @@ public:
             }
         }
         for (const std::string_view name : hints.open) nodes_[index_[name]].pastes = true;
+        addStructs(text);
         std::size_t at = 0;
         for (const FunctionRange& function : functions) {
             readOutside(text.substr(at, function.begin - at));
             collectNames(text.substr(function.begin, function.end - function.begin),
                          nodes_[index_[function.name]].names, true);
-            if (function.defines) outside_.push_back(index_[function.name]);
+            if (function.stays) outside_.push_back(index_[function.name]);
             at = function.end;
         }
         readOutside(text.substr(at));
@@ -47,15 +49,16 @@ public:
     }
 
     /// What the functions lead to, and what stands outside of functions, is alive. False when something is alive that
-    /// may mean any name.
-    bool follow(const std::vector<std::string_view>& functions) {
+    /// may mean any name, unless `byNameAlone`.
+    bool follow(const std::vector<std::string_view>& functions, bool byNameAlone) {
+        for (Node& node : nodes_) node.live = false;
         std::vector<std::size_t> waiting = outside_;
         for (const std::string_view function : functions) waiting.push_back(index_[function]);
         while (!waiting.empty()) {
             Node& next = nodes_[waiting.back()];
             waiting.pop_back();
             if (next.live) continue;
-            if (next.pastes) return false;
+            if (next.pastes && !byNameAlone) return false;
             next.live = true;
             waiting.insert(waiting.end(), next.names.begin(), next.names.end());
         }
@@ -97,9 +100,20 @@ private:
             const auto it = firstLetters_[static_cast<unsigned char>(c) & 127u] ? index_.find(name) : index_.end();
             if (it != index_.end())
                 names.push_back(it->second);
-            else if (code && isCalledMacro(name, text.substr(end)))
+            else if (code && isCalledMacro(name, text.substr(end)) && structs_.count(name) == 0)
                 names.push_back(kAnything);
             at = end;
+        }
+    }
+
+    /// What a struct is named: a call of it is its constructor.
+    void addStructs(std::string_view text) {
+        constexpr std::string_view kWord = "struct";
+        for (std::size_t at = 0; (at = text.find(kWord, at)) != std::string_view::npos; at += kWord.size()) {
+            const std::size_t begin = text.find_first_not_of(" \t\n", at + kWord.size());
+            if (begin == std::string_view::npos || begin == at + kWord.size() || (at > 0 && isNamePart(text[at - 1])))
+                continue;
+            if (const std::string_view name = leadingName(text.substr(begin)); !name.empty()) structs_.insert(name);
         }
     }
 
@@ -166,8 +180,17 @@ private:
     std::size_t functionEnd_ = 0;
     std::unordered_map<std::string_view, std::size_t> index_;
     std::array<bool, 128> firstLetters_{};  ///< Of the known names: most words are passed over by one look.
+    std::unordered_set<std::string_view> structs_;
     std::vector<std::size_t> outside_;
 };
+
+bool holdsOneOf(std::string_view text, const std::vector<std::string_view>& words) {
+    return std::any_of(words.begin(), words.end(), [&](std::string_view word) {
+        for (std::size_t at = 0; (at = text.find(word, at)) != std::string_view::npos; at += word.size())
+            if (!isNamePart(text[at - 1]) && !isNamePart(text[at + word.size()])) return true;
+        return false;
+    });
+}
 
 void countLines(std::string_view text, std::vector<FunctionRange>& functions) {
     std::size_t line = 0, counted = 0;
@@ -208,8 +231,12 @@ std::vector<FunctionRange> findDeadFunctions(std::string_view text, std::string_
         while (next < hints.kept.size() && hints.kept[next] <= function.firstLine) ++next;
         if (next < hints.kept.size() && hints.kept[next] <= function.lastLine) roots.push_back(function.name);
     }
-    if (!graph.follow(roots)) return {};
-    std::erase_if(walk.functions, [&](const FunctionRange& function) { return graph.isLive(function.name); });
+    const bool certain = graph.follow(roots, false);
+    if (!certain) graph.follow(roots, true);
+    std::erase_if(walk.functions, [&](const FunctionRange& function) {
+        return graph.isLive(function.name) ||
+               (!certain && !holdsOneOf(text.substr(function.begin, function.end - function.begin), hints.foreign));
+    });
     return std::move(walk.functions);
 }
 

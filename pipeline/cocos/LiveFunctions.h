@@ -13,7 +13,8 @@ struct FunctionRange {
     std::string_view name;
     std::size_t begin = 0, end = 0;
     std::size_t firstLine = 0, lastLine = 0;
-    bool defines = false;  ///< A macro, which holds behind it too: it counts as called.
+    bool stays =
+        false;  ///< It defines a macro, which holds behind it too, or a condition goes on: it counts as called.
 };
 
 /// What macros may stand for, by name.
@@ -23,13 +24,14 @@ using MacroBodies = std::unordered_map<std::string_view, std::vector<std::string
 struct LiveHints {
     std::vector<std::string_view> open;  ///< Macros whose value comes from outside and may be any word.
     std::vector<std::size_t> kept;  ///< Lines, counted from 0, ascending: the functions around them count as called.
+    std::vector<std::string_view> foreign{};  ///< Words that are errors in the stage.
 };
 
 /// The functions that neither `entry` nor main() leads to, by name and through macros, in text order. Conditions are
 /// not evaluated: a call in any branch counts, and so does every name in what is not understood. Empty where that
-/// cannot be told: without the entry, when a condition begins in one function and ends in another, when a macro leaves
-/// a bracket open, when names are pasted together or come from outside. `macros` are those that the text does not
-/// define itself.
+/// cannot be told: without the entry, when brackets do not come out even, when a macro leaves one open. When names are
+/// pasted together or come from outside, only those that hold foreign words and that nobody names. `macros` are those
+/// that the text does not define itself.
 std::vector<FunctionRange> findDeadFunctions(std::string_view text, std::string_view entry, const MacroBodies& macros,
                                              const LiveHints& hints = {});
 

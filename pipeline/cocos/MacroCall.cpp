@@ -16,12 +16,25 @@ bool ArgumentReader::read(std::string_view text, std::size_t& at) {
             return false;
         }
         ++bytes_;
-        if (c == ',' && depth_ == 1)
+        if (c == ',' && depth_ == 1) {
             values_.emplace_back();
-        else
+            whole_ = whole_ && branches_.empty();
+        } else {
             values_.back().push_back(c);
+        }
     }
     values_.back().push_back(' ');
+    return true;
+}
+
+bool ArgumentReader::readLine(std::string_view text, LineKind kind) {
+    if (!isConditional(kind) || text.ends_with('\\')) return false;
+    const bool opens = kind == LineKind::If || kind == LineKind::Ifdef || kind == LineKind::Ifndef;
+    if (!opens && (branches_.empty() || branches_.back() != depth_)) return false;
+    if (opens) branches_.push_back(depth_);
+    if (kind == LineKind::Endif) branches_.pop_back();
+    values_.back().append("\n").append(text).append("\n");
+    bytes_ += text.size() + 2;
     return true;
 }
 
@@ -36,7 +49,9 @@ bool matchArguments(const MacroDefinition& macro, std::vector<std::string>& argu
 }
 
 void reportUnclosed(std::string_view macro, const SourceLoc& where, Problems& problems) {
-    problems.error(where, fmt::format("the call of macro '{}' is not closed", macro), "a ')' is missing");
+    problems.error(where, fmt::format("the call of macro '{}' is not closed", macro),
+                   "a ')' is missing, or it is not one in every branch: a condition between the brackets "
+                   "lies within one argument");
 }
 
 void reportArguments(const MacroDefinition& macro, std::size_t given, const SourceLoc& where, Problems& problems) {

@@ -31,9 +31,9 @@ struct BodyLines {
 
 struct CallArguments {
     bool found = false;     ///< A '(' follows the name, and its ')' was found.
-    bool unclosed = false;  ///< A '(' follows, but no ')' before a preprocessor line, the end, or the limit.
-    std::vector<std::string> values;
-    std::size_t line = 0, end = 0;  ///< Behind the ')'.
+    bool unclosed = false;  ///< A '(' follows, but no ')' before the end or the limit, or not in every branch.
+    std::vector<std::string> values;  ///< Conditions between the brackets are lines of their own.
+    std::size_t line = 0, end = 0;    ///< Behind the ')'.
 };
 
 /// Splits what stands between the brackets at commas outside of inner brackets, one character at a time.
@@ -41,13 +41,20 @@ class ArgumentReader {
 public:
     /// True while the call is open.
     bool read(std::string_view text, std::size_t& at);
+    /// A preprocessor line between the brackets stays a line of its argument. False when it cannot: it is no condition,
+    /// or belongs to one that began outside.
+    bool readLine(std::string_view text, LineKind kind);
     bool isOpen() const { return depth_ > 0; }
+    /// False when a condition within an argument goes on behind it.
+    bool isWhole() const { return whole_ && branches_.empty(); }
     std::size_t bytes() const { return bytes_; }
     std::vector<std::string> take();
 
 private:
     std::vector<std::string> values_{std::string()};
+    std::vector<int> branches_;  ///< Brackets open at the #if of each condition.
     int depth_ = 0;
+    bool whole_ = true;
     std::size_t bytes_ = 0;
 };
 
@@ -58,14 +65,19 @@ CallArguments readArguments(const Lines& lines, std::size_t line, std::size_t at
     ArgumentReader reader;
     for (; line < lines.size(); ++line, at = 0) {
         const std::string_view text = lines.text(line);
-        if (at == 0 && readDirective(text).kind != LineKind::Code) break;
+        if (const LineKind kind = at == 0 ? readDirective(text).kind : LineKind::Code; kind != LineKind::Code) {
+            if (!reader.isOpen() || !reader.readLine(text, kind)) break;
+            continue;
+        }
         if (!reader.isOpen()) {
             at = std::min(text.find_first_not_of(" \t", at), text.size());
             if (at == text.size()) continue;
             if (text[at] != '(') return result;
         }
         if (!reader.read(text, at)) {
-            result.found = true;
+            result.found = reader.isWhole();
+            result.unclosed = !result.found;
+            if (result.unclosed) return result;
             result.values = reader.take();
             result.line = line;
             result.end = at;

@@ -24,6 +24,7 @@ public:
         return it != choices_.end() && it->second.size() > 1 &&
                std::find(taken_.begin(), taken_.end(), name) == taken_.end();
     }
+    bool isEmpty() const { return choices_.empty(); }
     const std::vector<const MacroDefinition*>& of(std::string_view name) { return choices_[name]; }
     /// From here to release() one of the definitions holds.
     void take(std::string_view name) { taken_.push_back(name); }

@@ -8,7 +8,6 @@ namespace crevice::cocos {
 MacroTable::MacroTable(const SourceText& program, const Resolve& resolve, std::size_t maxSources) {
     visit(program, resolve, maxSources);
     chooseExpanded();
-    chooseChosen();
 }
 
 void MacroTable::visit(const SourceText& root, const Resolve& resolve, std::size_t maxSources) {
@@ -17,6 +16,7 @@ void MacroTable::visit(const SourceText& root, const Resolve& resolve, std::size
         const SourceText& source = *waiting.back();
         waiting.pop_back();
         if (!seen_.insert(&source).second) continue;
+        sources_.push_back(&source);
         for (const MacroDefinition& macro : source.macros)
             if (!macro.dead) all_.push_back(&macro);
         const auto follow = [&](std::string_view rest) {
@@ -38,19 +38,104 @@ void MacroTable::visit(const SourceText& root, const Resolve& resolve, std::size
 void MacroTable::chooseExpanded() {
     for (const MacroDefinition* macro : all_)
         if (macro->bearsDirectives || macro->declares) expand(macro->name);
+    for (const SourceText* source : sources_) expandFunctions(source->splitCalls);
     if (expanded_.empty()) return;
-    const auto calls = [&](const MacroDefinition& macro) {
-        return std::any_of(macro.body.begin(), macro.body.end(),
-                           [&](const auto& part) { return findCall(part.text, 0) != std::string_view::npos; });
+    do {
+        while (expandCallers()) continue;
+        chooseChosen();
+    } while (expandAround());
+}
+
+bool MacroTable::calls(const MacroDefinition& macro) const {
+    return std::any_of(macro.body.begin(), macro.body.end(),
+                       [&](const auto& part) { return findCall(part.text, 0) != std::string_view::npos; });
+}
+
+bool MacroTable::expandCallers() {
+    bool grown = false;
+    for (const MacroDefinition* macro : all_) {
+        if (expanded_.contains(macro->name) || !calls(*macro)) continue;
+        expand(macro->name);
+        grown = true;
+    }
+    return grown;
+}
+
+bool MacroTable::expandFunctions(const std::vector<std::string_view>& names) {
+    bool grown = false;
+    for (const std::string_view name : names) {
+        const MacroDefinition* macro = find(name);
+        if (macro == nullptr || !macro->functionLike || expanded_.contains(name)) continue;
+        expand(name);
+        grown = true;
+    }
+    return grown;
+}
+
+/// What becomes more than one line when it is written out.
+std::unordered_set<std::string_view> MacroTable::findSplitting() const {
+    std::unordered_set<std::string_view> splitting = chosen_;
+    for (const MacroDefinition* macro : all_)
+        if (macro->bearsDirectives) splitting.insert(macro->name);
+    const auto leads = [&](const MacroDefinition& macro) {
+        for (const auto& part : macro.body)
+            for (std::size_t at = 0; (at = findCall(part.text, at)) != std::string_view::npos;) {
+                const std::string_view name = leadingName(part.text.substr(at));
+                if (splitting.contains(name)) return true;
+                at += name.size();
+            }
+        return false;
     };
-    for (bool grown = true; grown;) {
+    for (bool grown = !splitting.empty(); grown;) {
         grown = false;
-        for (const MacroDefinition* macro : all_) {
-            if (expanded_.contains(macro->name) || !calls(*macro)) continue;
-            expand(macro->name);
-            grown = true;
+        for (const MacroDefinition* macro : all_)
+            if (expanded_.contains(macro->name) && !splitting.contains(macro->name) && leads(*macro))
+                grown = splitting.insert(macro->name).second;
+    }
+    return splitting;
+}
+
+/// GLSL's preprocessor takes no preprocessor lines between a macro's brackets.
+bool MacroTable::expandAround() {
+    const auto isWaiting = [&](const MacroDefinition* macro) {
+        return macro->functionLike && !expanded_.contains(macro->name);
+    };
+    if (std::none_of(all_.begin(), all_.end(), isWaiting)) return false;
+    const auto splitting = findSplitting();
+    if (splitting.empty()) return false;
+    std::vector<std::string_view> names;
+    const auto lookBack = [&](std::size_t count, auto lineOf, auto isCode) {
+        for (std::size_t line = 0; line < count; ++line) {
+            if (!isCode(line)) continue;
+            const std::string_view text = lineOf(line);
+            for (std::size_t at = 0; (at = findCall(text, at)) != std::string_view::npos;) {
+                const std::string_view name = leadingName(text.substr(at));
+                OpenCalls open(names);
+                bool reads = splitting.contains(name) && open.readBack(text.substr(0, at));
+                for (std::size_t i = line; reads && i-- > 0 && line - i < kMostCallLines;)
+                    reads = isCode(i) ? open.readBack(lineOf(i)) : true;
+                at += name.size();
+            }
+        }
+    };
+    for (const SourceText* source : sources_)
+        lookBack(
+            source->lines.size(), [&](std::size_t i) { return source->lines[i].text; },
+            [&](std::size_t i) { return isCodeLine(*source, i); });
+    for (const MacroDefinition* macro : all_)
+        lookBack(
+            macro->body.size(), [&](std::size_t i) { return macro->body[i].text; },
+            [&](std::size_t i) { return readDirective(macro->body[i].text).kind == LineKind::Code; });
+    for (const MacroDefinition* macro : all_) {
+        for (std::size_t line = 0; macro->bearsDirectives && line < macro->body.size(); ++line) {
+            if (!isConditional(readDirective(macro->body[line].text).kind)) continue;
+            OpenCalls open(names);
+            for (std::size_t i = line; i-- > 0 && line - i < kMostCallLines;)
+                if (readDirective(macro->body[i].text).kind == LineKind::Code && !open.readBack(macro->body[i].text))
+                    break;
         }
     }
+    return expandFunctions(names);
 }
 
 void MacroTable::chooseChosen() {

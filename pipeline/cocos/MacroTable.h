@@ -14,7 +14,8 @@
 namespace crevice::cocos {
 
 /// All macros of the texts that a program includes, wherever they stand: `#pragma define` holds for the whole stage.
-/// Expanded are those whose body bears preprocessor lines or interface declarations, and those that call such a one.
+/// Expanded are those whose body bears preprocessor lines or interface declarations, those that call such a one, and
+/// those between whose brackets preprocessor lines stand or come to stand.
 class MacroTable {
 public:
     /// What an #include in `from` means; null = nothing, somebody else reports it.
@@ -34,10 +35,16 @@ public:
 private:
     void visit(const SourceText& source, const Resolve& resolve, std::size_t maxSources);
     void chooseExpanded();
+    bool expandCallers();
+    bool expandAround();
+    bool expandFunctions(const std::vector<std::string_view>& names);
     void chooseChosen();
     void expand(std::string_view name);
+    bool calls(const MacroDefinition& macro) const;
+    std::unordered_set<std::string_view> findSplitting() const;
 
     std::vector<const MacroDefinition*> all_;
+    std::vector<const SourceText*> sources_;
     std::unordered_set<const SourceText*> seen_;
     std::unordered_map<std::string_view, const MacroDefinition*> first_;
     std::unordered_set<std::string_view> expanded_, chosen_;

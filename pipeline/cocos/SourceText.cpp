@@ -106,6 +106,8 @@ public:
         splitLines();
         for (std::size_t at = 0; at < source_.lines.size();) at += readLine(at);
         for (MacroDefinition& macro : source_.macros) macro.source = &source_;
+        for (std::size_t at = 0; at < source_.lines.size(); at += source_.lines[at].span)
+            if (isConditional(source_.lines[at].kind)) addSplitCalls(at);
     }
 
 private:
@@ -213,6 +215,15 @@ private:
         source_.lines[at].span = 2;
     }
 
+    /// Looks back from a condition for brackets that its statement leaves open.
+    void addSplitCalls(std::size_t directive) {
+        OpenCalls open(source_.splitCalls);
+        for (std::size_t at = directive; at-- > 0 && directive - at <= kMostCallLines;) {
+            if (isConditional(source_.lines[at].kind)) return;  // It looked back itself.
+            if (isCodeLine(source_, at) && !open.readBack(source_.lines[at].text)) return;
+        }
+    }
+
     struct Branch {
         bool decided = false;  ///< An earlier branch, or this one, is taken for certain.
         bool dead = false;
@@ -223,6 +234,28 @@ private:
 };
 
 }  // namespace
+
+bool OpenCalls::readBack(std::string_view text) {
+    for (std::size_t at = text.size(); at-- > 0;) {
+        if (text[at] == ';' || text[at] == '{' || text[at] == '}') return false;
+        if (text[at] == ')') ++closed_;
+        if (text[at] != '(') continue;
+        if (closed_ > 0) {
+            --closed_;
+            continue;
+        }
+        std::size_t end = at;
+        while (end > 0 && isBlank(text[end - 1])) --end;
+        std::size_t begin = end;
+        while (begin > 0 && isNamePart(text[begin - 1])) --begin;
+        if (begin < end) names_.push_back(text.substr(begin, end - begin));
+    }
+    return true;
+}
+
+bool isCodeLine(const SourceText& source, std::size_t at) {
+    return source.lines[at].kind == LineKind::Code && (at == 0 || !endsWithBackslash(source.lines[at - 1].text));
+}
 
 bool isConditional(LineKind kind) { return kind >= LineKind::If && kind <= LineKind::Endif; }
 

@@ -70,6 +70,7 @@ struct SourceText {
     std::string text;
     std::vector<SourceLine> lines;  ///< Without blank ones.
     std::vector<MacroDefinition> macros;
+    std::vector<std::string_view> splitCalls;  ///< Names in front of brackets that a condition stands in.
 
     SourceText() = default;
     SourceText(const SourceText&) = delete;
@@ -79,6 +80,23 @@ struct SourceText {
 /// `firstLine` is the line of `file` on which `text` begins.
 std::unique_ptr<SourceText> readSource(std::string_view text, const std::string& shown, const std::string& file,
                                        const std::filesystem::path& folder, int firstLine);
+
+/// Finds the calls that are open at a place: reads back from it, line by line.
+class OpenCalls {
+public:
+    /// Takes the names in front of the brackets.
+    explicit OpenCalls(std::vector<std::string_view>& names) : names_(names) {}
+    /// False when the statement begins in this line.
+    bool readBack(std::string_view text);
+
+private:
+    std::vector<std::string_view>& names_;
+    std::size_t closed_ = 0;
+};
+constexpr std::size_t kMostCallLines = 200;  ///< That one call reaches over, where conditions stand in it.
+
+/// No preprocessor line, nor the continuation of one.
+bool isCodeLine(const SourceText& source, std::size_t at);
 
 /// `#define NAME(parameters) body` in one line.
 std::string defineLine(const MacroDefinition& macro);

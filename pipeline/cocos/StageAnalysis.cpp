@@ -74,6 +74,9 @@ private:
                 for (const auto& part : macro->body) macros[name].emplace_back(part.text);
         LiveHints hints;
         readOutsideNames(directives_, out_.flat.text, visible_, macros, hints);
+        hints.foreign = out_.stage == kFragmentBit
+                            ? std::vector<std::string_view>{"gl_Position", "gl_VertexIndex", "gl_InstanceIndex"}
+                            : std::vector<std::string_view>{"discard", "dFdx", "dFdy", "fwidth", "gl_FragCoord"};
         dead_ = findDeadFunctions(out_.flat.text, entry, macros, hints);
     }
 

@@ -59,6 +59,42 @@ TEST(CocosChosenHead, OverTheEndOfTheLine) {
     compileBoth(bench);
 }
 
+TEST(CocosChosenHead, WithinAnotherMacro) {
+    CocosBench bench;
+    const std::string heads = choice("UB", "uniform highp", "uniform lowp");
+    const std::string main = "void main() { color = texture(one, vec2(0.0)); }\n";
+    bench.fragment(heads + "#define MAP UB sampler2D\n" + kColor + "MAP one;\n" + main);
+    const std::string text = bench.fragmentText().flat.text;
+    EXPECT_THAT(text, HasSubstr("\nuniform highp sampler2D one;\n"));
+    EXPECT_THAT(text, HasSubstr("\nuniform lowp sampler2D one;\n"));
+    compileBoth(bench);
+    bench.fragment(heads + "#define MAP(n) \\\n  UB sampler2D n\n#define TWO(a, b) MAP(a); MAP(b)\n" + kColor +
+                   "TWO(one, two);\nMAP(three); MAP(four);\n" + main);
+    compileBoth(bench);
+    bench.fragment(heads + "#define MAP(n) UB sampler2D n;\n" + kColor + "MAP(one)\nfloat f() { return 1.0; }\n" +
+                   "void main() { color = texture(one, vec2(f())); }\n");
+    EXPECT_THAT(bench.fragmentText().flat.text, HasSubstr("#endif\nfloat f() { return 1.0; }\n"));
+    compileBoth(bench);
+}
+
+TEST(CocosChosenHead, SeveralInOneDeclaration) {
+    CocosBench bench;
+    bench.effect("flat out vec2 v_a;\nvoid main() { v_a = vec2(1.0); gl_Position = vec4(1.0); }\n",
+                 choice("KIND", "flat in", "in") + "#if USE_B\n#define HIGH(t) in highp t\n#else\n" +
+                     "#define HIGH(t) in t\n#endif\n#define FLAT HIGH\n" + kColor +
+                     "flat FLAT(vec2) v_a;\nvoid main() { color = v_a.xyxy; }\n");
+    compileBoth(bench);
+    bench.compile({{"USE_B", "1"}});
+    bench.fragment(choice("UB", "uniform", "layout(set = 1) uniform") +
+                   "#if USE_B\n#define IMAGE highp sampler2D one; uniform highp sampler2D\n#else\n"
+                   "#define IMAGE sampler2D one; uniform sampler2D\n#endif\n" +
+                   kColor +
+                   "UB IMAGE two;\nvoid main() { color = texture(one, vec2(0.0)) + texture(two, vec2(0.0)); }\n");
+    EXPECT_THAT(bench.fragmentText().flat.text, HasSubstr("\nlayout(set = 1) uniform highp sampler2D one; "));
+    compileBoth(bench);
+    bench.compile({{"USE_A", "1"}, {"USE_B", "1"}});
+}
+
 TEST(CocosChosenHead, ManyInALineDoNotMultiply) {
     CocosBench bench;
     std::string line;

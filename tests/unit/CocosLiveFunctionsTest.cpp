@@ -73,6 +73,45 @@ TEST(CocosLiveFunctions, WhatCannotBeToldStays) {
     EXPECT_THAT(dead("float a( { return 1.0; }\nvoid main() {}\n"), IsEmpty());
 }
 
+TEST(CocosLiveFunctions, ConditionsThatCrossKeepTheirFunctionAlone) {
+    const std::string gone = "float gone() { return 1.0; }\n";
+    const std::string main = "float after() { return 1.0; }\nvoid main() {}\n";
+    for (const char* const body : {"float a(float x) {\n#if A\n if (x > 0.0) {\n#endif\n x = 1.0;\n#if A\n }\n#endif\n "
+                                   "return x; }\n",
+                                   "float a() {\n#if A\n return 1.0; }\n#else\n return 2.0; }\n#endif\n",
+                                   "float a() {\n#if A\n return 1.0; }\n#elif B\n return 2.0; }\n#else\n }\n#endif\n",
+                                   "#if A\nfloat a(float x) {\n#else\nfloat a(vec2 x) {\n#endif\n return 1.0; }\n",
+                                   "#if A\nfloat a()\n#else\nvec2 a()\n#endif\n{ return 1.0; }\n",
+                                   "float a(vec2 x\n#if A\n , float y)\n#else\n )\n#endif\n{\n#if A\n if (y > 0.0) {\n"
+                                   "#else\n {\n#endif\n } return 1.0; }\n"})
+        EXPECT_THAT(dead(gone + body + main), ElementsAre("gone", "after")) << body;
+}
+
+TEST(CocosLiveFunctions, ConstructorsInCapitalsAreNoMacros) {
+    const std::string text = "struct PBR { vec4 c; };\nfloat gone() { return 1.0; }\nvoid main() { PBR(vec4(1.0)); }\n";
+    EXPECT_THAT(dead(text), ElementsAre("gone"));
+    EXPECT_THAT(dead("#define struct_PBR\n" + text.substr(text.find("float"))), IsEmpty());
+}
+
+TEST(CocosLiveFunctions, WhatTheStageCannotHoldGoesWhenNobodyNamesIt) {
+    CocosBench bench;
+    bench.effect(
+        "void clip(float v) { if (v < 0.0) discard; }\nfloat slope(float v) { return dFdx(v); }\n"
+        "float stays() { return 1.0; }\n#if USE_A\n#endif\n"
+        "void main() { gl_Position = vec4(float(USE_A)); }\n",
+        "layout(location = 0) out vec4 color;\nvoid main() { color = vec4(1.0); }\n");
+    Problems problems;
+    const auto stages = bench.flatten(problems);
+    ASSERT_EQ(stages.size(), 2u);
+    EXPECT_THAT(stages[0].flat.text, Not(HasSubstr("clip")));
+    EXPECT_THAT(stages[0].flat.text, HasSubstr("stays"));  // USE_A may be any word.
+    bench.compile();
+    bench.compile({{"USE_A", "1"}});
+    bench.effect("void clip(float v) { if (v < 0.0) discard; }\nvoid main() { clip(1.0); gl_Position = vec4(1.0); }\n",
+                 "void main() {}\n");
+    EXPECT_THAT(bench.compileError(), HasSubstr("'discard'"));
+}
+
 const std::string kHelper = "float helper(float x) { return x; }\n";
 
 TEST(CocosLiveFunctions, NamesInBodiesThatAreNotUnderstoodAreAlive) {

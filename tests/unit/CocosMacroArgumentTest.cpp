@@ -1,0 +1,85 @@
+// Preprocessor lines between the brackets of a macro's call: such a macro is written out.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "CocosFrontTools.h"
+
+namespace crevice::cocos {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+const std::string kColor = "layout(location = 0) out vec4 color;\n";
+
+TEST(CocosMacroArgument, ConditionsInTheText) {
+    CocosBench bench;
+    bench.fragment(
+        "#define MAD(a, b) (a + b * a)\n" + kColor +
+        "void main() { float y = MAD(1.0,\n#if USE_A\n  2.0\n#else\n  3.0\n#endif\n  ); color = vec4(y); }\n");
+    EXPECT_EQ(words(bench.fragmentText().flat.text),
+              (std::vector<std::string>{"#define MAD MAD", "layout(location = 0) out vec4 color;",
+                                        "void main() { float y = (1.0 +", "#if USE_A", "2.0", "#else", "3.0", "#endif",
+                                        "* 1.0); color = vec4(y); }"}));
+    bench.compile();
+    bench.compile({{"USE_A", "1"}});
+}
+
+TEST(CocosMacroArgument, ConditionsOfAnotherMacro) {
+    CocosBench bench;
+    bench.fragment(
+        "#define MAD(a, b) (a + b)\n#if USE_A\n#define CH(x) \\\n#if USE_B \\\n x \\\n#else \\\n 2.0 "
+        "\\\n#endif\n#else\n"
+        "#define CH(x) \\\n (x + 1.0) \\\n#if USE_C \\\n + 1.0 \\\n#endif\n#endif\n" +
+        kColor + "void main() { float y = MAD(CH(1.0), 2.0); float z = CH(y); color = vec4(MAD(y,\n  CH(z))); }\n");
+    for (const auto* a : {"0", "1"})
+        for (const auto* b : {"0", "1"}) bench.compile({{"USE_A", a}, {"USE_B", b}, {"USE_C", b}});
+}
+
+TEST(CocosMacroArgument, TheMacroItselfInItsArgument) {
+    CocosBench bench;
+    bench.fragment("#define ADD(a, b) (a + b)\n#define TWICE(x) ADD(x, x)\n" + kColor +
+                   "void main() { float y = TWICE(ADD(1.0,\n#if USE_A\n  TWICE(2.0)\n#elif USE_B\n  ADD(4.0, "
+                   "TWICE(1.0))\n#endif\n#if !USE_A && !USE_B\n  3.0\n#endif\n  )); color = vec4(y); }\n");
+    EXPECT_THAT(bench.fragmentText().flat.text, HasSubstr("(2.0 + 2.0)"));
+    bench.compile();
+    bench.compile({{"USE_A", "1"}});
+    bench.compile({{"USE_B", "1"}});
+}
+
+TEST(CocosMacroArgument, FunctionsAreLeftAlone) {
+    CocosBench bench;
+    const std::string text =
+        "void place(inout vec4 at, vec2 by\n#if USE_A\n  , float more\n#endif\n) { at.xy += by; }\n" + kColor +
+        "void main() { color = vec4(0.0); place(color, vec2(1.0)\n#if USE_A\n  , 1.0\n#endif\n  ); }\n";
+    bench.fragment(text);
+    EXPECT_EQ(words(bench.fragmentText().flat.text), words(text));
+    bench.compile({{"USE_A", "1"}});
+    bench.fragment("#define PLACE place\n" + text + "#if 0\nPLACE(\n#endif\n");  // No macro with parameters.
+    EXPECT_THAT(bench.fragmentText().flat.text, Not(HasSubstr("#define PLACE PLACE")));
+}
+
+TEST(CocosMacroArgument, BracketsThatABranchCloses) {
+    CocosBench bench;
+    bench.fragment("#define MAD(a, b) (a + b)\n" + kColor +
+                   "void main() { color = vec4(MAD(1.0,\n#if USE_A\n  2.0));\n#else\n  3.0));\n#endif\n}\n");
+    const Problem problem = bench.problem();
+    EXPECT_EQ(problem.message, "the call of macro 'MAD' is not closed");
+    EXPECT_THAT(problem.help, HasSubstr("in every branch"));
+    bench.fragment("#define MAD(a, b) (a + b)\n" + kColor +
+                   "void main() { color = vec4(MAD(1.0\n#if USE_A\n  , 2.0\n#else\n  , 3.0\n#endif\n  )); }\n");
+    EXPECT_EQ(bench.problem().message, "the call of macro 'MAD' is not closed");
+}
+
+TEST(CocosMacroArgument, ValuesKeepTheSemicolonOfTheirStatement) {
+    CocosBench bench;
+    bench.fragment("#define PICK(a, b) \\\n#if USE_A \\\n  a \\\n#else \\\n  b \\\n#endif\n#define SAME(x) x\n" +
+                   kColor +
+                   "void main() { float y = PICK(1.0, 2.0);\n  float z =\n  PICK(y, 2.0);\n"
+                   "  z = SAME(\n#if USE_A\n  y\n#else\n  z\n#endif\n);\n  color = vec4(z); }\n");
+    bench.compile();
+    bench.compile({{"USE_A", "1"}});
+}
+
+}  // namespace
+}  // namespace crevice::cocos
