@@ -9,9 +9,9 @@
 namespace crevice::cocos {
 namespace {
 
-constexpr int kMaxHeadDepth = 16;       ///< Macros in macros that are looked through for the head of a declaration.
-constexpr std::size_t kMaxHeads = 16;   ///< In one declaration.
-constexpr std::size_t kMaxCopies = 16;  ///< Of a declaration with several chosen heads.
+constexpr std::size_t kMaxLooked = 16u << 20;  ///< Bytes of macros' bodies that are looked through, of a stage.
+constexpr std::size_t kMaxHeads = 16;          ///< In one declaration.
+constexpr std::size_t kMaxCopies = 16;         ///< Of a declaration with several chosen heads.
 
 }  // namespace
 
@@ -96,17 +96,38 @@ std::string_view Flattener::calledBy(std::string_view name) const {
     return name;
 }
 
-void Flattener::addOpenChoices(std::string_view text, std::vector<std::string_view>& names, int depth) const {
-    for (std::size_t at = 0; (at = table_->findCall(text, at)) != std::string_view::npos;) {
-        const std::string_view call = leadingName(text.substr(at));
-        at += call.size();
-        const bool isOpen = isOpenChoice(call);
-        if (isOpen && std::find(names.begin(), names.end(), call) == names.end()) names.push_back(call);
-        const MacroDefinition* macro = isOpen ? nullptr : definitionOf(call);
-        if (macro == nullptr || macro->bearsDirectives || depth >= kMaxHeadDepth || names.size() > kMaxHeads) continue;
-        if (std::find(active_.begin(), active_.end(), call) != active_.end()) continue;
-        for (const auto& part : macro->body) addOpenChoices(part.text, names, depth + 1);
+template <class Visit>
+bool Flattener::visitCalls(std::string_view text, std::unordered_set<std::string_view>& seen, Visit visit) {
+    std::vector<std::string_view> waiting{text};
+    while (!waiting.empty()) {
+        const std::string_view next = waiting.back();
+        waiting.pop_back();
+        looked_ += next.size();
+        if (looked_ > kMaxLooked) return false;
+        for (std::size_t at = 0; (at = table_->findCall(next, at)) != std::string_view::npos;) {
+            const std::string_view call = leadingName(next.substr(at));
+            at += call.size();
+            if (!seen.insert(call).second) continue;
+            const Visited visited = visit(call);
+            if (visited == Visited::Found) return true;
+            const MacroDefinition* macro = visited == Visited::PassOver ? nullptr : definitionOf(call);
+            if (macro == nullptr) continue;
+            for (const auto& part : macro->body) waiting.push_back(part.text);
+        }
     }
+    return false;
+}
+
+bool Flattener::addOpenChoices(std::string_view text, std::vector<std::string_view>& names,
+                               std::unordered_set<std::string_view>& seen) {
+    return visitCalls(text, seen, [&](std::string_view call) {
+        const MacroDefinition* macro = definitionOf(call);
+        if (isOpenChoice(call)) names.push_back(call);
+        if (names.size() > kMaxHeads) return Visited::Found;
+        const bool within = std::find(active_.begin(), active_.end(), call) != active_.end();
+        return isOpenChoice(call) || within || macro == nullptr || macro->bearsDirectives ? Visited::PassOver
+                                                                                          : Visited::Enter;
+    });
 }
 
 bool Flattener::isHeadChoice(std::string_view name) {
@@ -125,7 +146,8 @@ std::string_view Flattener::chosenHeadOf(std::string_view name) {
     const std::string_view last = trimBlank(macro->body.back().text);
     if (last.empty() || last.ends_with(';') || last.ends_with('}')) return {};
     std::vector<std::string_view> names;
-    for (const auto& part : macro->body) addOpenChoices(part.text, names, 1);
+    std::unordered_set<std::string_view> seen;
+    for (const auto& part : macro->body) addOpenChoices(part.text, names, seen);
     const auto head = std::find_if(names.begin(), names.end(), [&](std::string_view one) { return isHeadChoice(one); });
     return head == names.end() ? std::string_view() : *head;
 }
@@ -133,8 +155,9 @@ std::string_view Flattener::chosenHeadOf(std::string_view name) {
 template <class Lines>
 StatementRest Flattener::restOfDeclaration(const Lines& lines, std::size_t at, std::size_t from) {
     std::vector<std::string_view> names;
+    std::unordered_set<std::string_view> seen;
     return readStatementRest(lines, at, from, limits_.maxArgument, [&](std::string_view part) {
-        addOpenChoices(part, names);
+        addOpenChoices(part, names, seen);
         std::size_t copies = 1;
         for (const std::string_view name : names) copies = std::min(copies * choices_.of(name).size(), kMaxCopies + 1);
         return copies > kMaxCopies && names.size() > 1;
@@ -243,29 +266,18 @@ bool Flattener::expandChoice(const MacroDefinition& macro, const CallArguments& 
     return false;
 }
 
-bool Flattener::leadsTo(std::string_view text, std::string_view name, int depth) const {
-    for (std::size_t at = 0; (at = table_->findCall(text, at)) != std::string_view::npos;) {
-        const std::string_view call = leadingName(text.substr(at));
-        if (call == name) return true;
-        at += call.size();
-        const MacroDefinition* macro = definitionOf(call);
-        if (macro == nullptr || depth >= kMaxHeadDepth) continue;
-        if (std::any_of(macro->body.begin(), macro->body.end(),
-                        [&](const auto& part) { return leadsTo(part.text, name, depth + 1); }))
-            return true;
-    }
-    return false;
-}
-
 void Flattener::expandArguments(const MacroDefinition& macro, std::vector<std::string>& arguments, Origin origin) {
     const auto isPasted = [](const auto& part) { return part.text.find("##") != std::string_view::npos; };
     if (std::any_of(macro.body.begin(), macro.body.end(), isPasted)) return;
     for (std::string& argument : arguments) {
-        if (table_->findCall(argument, 0) == std::string_view::npos) continue;
-        if (!leadsTo(argument, macro.name) && std::none_of(active_.begin(), active_.end(), [&](std::string_view name) {
-                return leadsTo(argument, name);
-            }))
-            continue;
+        std::unordered_set<std::string_view> seen;
+        const bool leadsBack = visitCalls(argument, seen, [&](std::string_view call) {
+            const bool around = std::find(active_.begin(), active_.end(), call) != active_.end();
+            return call == macro.name || around ? Visited::Found : Visited::Enter;
+        });
+        if (!leadsBack) continue;
+        if (argumentDepth_ >= limits_.maxDepth) return stopExpanding(macro);
+        ++argumentDepth_;
         BodyLines lines;
         for (std::size_t at = 0; at <= argument.size();) {
             const std::size_t end = std::min(argument.find('\n', at), argument.size());
@@ -279,6 +291,7 @@ void Flattener::expandArguments(const MacroDefinition& macro, std::vector<std::s
         writeLines(lines, pending, *macro.source, false);
         flush(pending);
         captured_ = outer;
+        --argumentDepth_;
         if (written.ends_with('\n') && written.find('#') == std::string::npos) written.pop_back();
         argument = (written.starts_with('#') ? "\n" : "") + written;
         written_ += argument.size();

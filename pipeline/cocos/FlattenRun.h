@@ -6,6 +6,7 @@
 #include <string>
 #include <string_view>
 #include <unordered_map>
+#include <unordered_set>
 #include <vector>
 
 #include "cocos/FlatOutput.h"
@@ -62,8 +63,15 @@ private:
     /// Follows `#define F G` to G: a call of F is one of G.
     std::string_view calledBy(std::string_view name) const;
 
+    enum class Visited : std::uint8_t { Found, Enter, PassOver };
+    /// Visits the macros to be expanded that a text names, and those that the bodies of entered ones name, each once.
+    /// True when `visit` found what it looks for; false too when a stage's macros are too large to look through.
+    template <class Visit>
+    bool visitCalls(std::string_view text, std::unordered_set<std::string_view>& seen, Visit visit);
+
     /// Adds the macros whose definition is not chosen and that a text leads to, through others' bodies too.
-    void addOpenChoices(std::string_view text, std::vector<std::string_view>& names, int depth = 0) const;
+    bool addOpenChoices(std::string_view text, std::vector<std::string_view>& names,
+                        std::unordered_set<std::string_view>& seen);
 
     /// Does the macro stand for a declaration or the head of one?
     bool isHeadChoice(std::string_view name);
@@ -98,9 +106,6 @@ private:
     /// One of the definitions: those without parameters leave the brackets standing, those with them need brackets.
     bool expandChoice(const MacroDefinition& macro, const CallArguments& arguments, Origin origin, Pending& pending);
 
-    /// True when a text comes to name the macro, through others' bodies too.
-    bool leadsTo(std::string_view text, std::string_view name, int depth = 0) const;
-
     /// An argument that names the macro it is given to, or one around it, is expanded before it is put in: within
     /// themselves macros are not.
     void expandArguments(const MacroDefinition& macro, std::vector<std::string>& arguments, Origin origin);
@@ -134,7 +139,7 @@ private:
     std::string* captured_ = nullptr;       ///< What is written is an argument that goes into a macro's body.
     std::optional<Origin> expandedFrom_;    ///< The author's call that writes the present lines.
     SourceLoc callPlace_;                   ///< Of that call.
-    std::size_t includes_ = 0, expansions_ = 0, written_ = 0;
+    std::size_t includes_ = 0, expansions_ = 0, written_ = 0, looked_ = 0, argumentDepth_ = 0;
     struct {
         std::size_t expansions = 0, written = 0;
     } before_;  ///< The counts before that call.

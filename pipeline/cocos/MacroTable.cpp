@@ -4,6 +4,12 @@
 #include <algorithm>
 
 namespace crevice::cocos {
+namespace {
+
+constexpr int kMaxPasses = 16;                    ///< Macros in macros' brackets in macros' brackets.
+constexpr std::size_t kMaxLookedBack = 8u << 20;  ///< Bytes, for the brackets around the calls of a stage.
+
+}  // namespace
 
 MacroTable::MacroTable(const SourceText& program, const Resolve& resolve, std::size_t maxSources) {
     visit(program, resolve, maxSources);
@@ -40,10 +46,11 @@ void MacroTable::chooseExpanded() {
         if (macro->bearsDirectives || macro->declares) expand(macro->name);
     for (const SourceText* source : sources_) expandFunctions(source->splitCalls);
     if (expanded_.empty()) return;
-    do {
+    for (int pass = 0; pass < kMaxPasses; ++pass) {
         while (expandCallers()) continue;
         chooseChosen();
-    } while (expandAround());
+        if (!expandAround()) break;
+    }
 }
 
 bool MacroTable::calls(const MacroDefinition& macro) const {
@@ -61,7 +68,7 @@ bool MacroTable::expandCallers() {
     return grown;
 }
 
-bool MacroTable::expandFunctions(const std::vector<std::string_view>& names) {
+bool MacroTable::expandFunctions(const std::unordered_set<std::string_view>& names) {
     bool grown = false;
     for (const std::string_view name : names) {
         const MacroDefinition* macro = find(name);
@@ -86,11 +93,12 @@ std::unordered_set<std::string_view> MacroTable::findSplitting() const {
             }
         return false;
     };
-    for (bool grown = !splitting.empty(); grown;) {
+    bool grown = !splitting.empty();
+    for (int pass = 0; grown && pass < kMaxPasses; ++pass) {
         grown = false;
         for (const MacroDefinition* macro : all_)
             if (expanded_.contains(macro->name) && !splitting.contains(macro->name) && leads(*macro))
-                grown = splitting.insert(macro->name).second;
+                grown = splitting.insert(macro->name).second || grown;
     }
     return splitting;
 }
@@ -103,7 +111,8 @@ bool MacroTable::expandAround() {
     if (std::none_of(all_.begin(), all_.end(), isWaiting)) return false;
     const auto splitting = findSplitting();
     if (splitting.empty()) return false;
-    std::vector<std::string_view> names;
+    std::unordered_set<std::string_view> names;
+    std::size_t looked = 0;
     const auto lookBack = [&](std::size_t count, auto lineOf, auto isCode) {
         for (std::size_t line = 0; line < count; ++line) {
             if (!isCode(line)) continue;
@@ -112,9 +121,13 @@ bool MacroTable::expandAround() {
                 const std::string_view name = leadingName(text.substr(at));
                 OpenCalls open(names);
                 bool reads = splitting.contains(name) && open.readBack(text.substr(0, at));
-                for (std::size_t i = line; reads && i-- > 0 && line - i < kMostCallLines;)
+                for (std::size_t i = line; reads && i-- > 0 && line - i < kMostCallLines;) {
                     reads = isCode(i) ? open.readBack(lineOf(i)) : true;
+                    looked += lineOf(i).size();
+                }
                 at += name.size();
+                looked += at;
+                if (looked > kMaxLookedBack) return;
             }
         }
     };

@@ -37,7 +37,7 @@ private:
     void chooseExpanded();
     bool expandCallers();
     bool expandAround();
-    bool expandFunctions(const std::vector<std::string_view>& names);
+    bool expandFunctions(const std::unordered_set<std::string_view>& names);
     void chooseChosen();
     void expand(std::string_view name);
     bool calls(const MacroDefinition& macro) const;

@@ -248,7 +248,7 @@ bool OpenCalls::readBack(std::string_view text) {
         while (end > 0 && isBlank(text[end - 1])) --end;
         std::size_t begin = end;
         while (begin > 0 && isNamePart(text[begin - 1])) --begin;
-        if (begin < end) names_.push_back(text.substr(begin, end - begin));
+        if (begin < end) names_.insert(text.substr(begin, end - begin));
     }
     return true;
 }

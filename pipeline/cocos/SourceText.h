@@ -7,6 +7,7 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <unordered_set>
 #include <vector>
 
 namespace crevice::cocos {
@@ -70,7 +71,7 @@ struct SourceText {
     std::string text;
     std::vector<SourceLine> lines;  ///< Without blank ones.
     std::vector<MacroDefinition> macros;
-    std::vector<std::string_view> splitCalls;  ///< Names in front of brackets that a condition stands in.
+    std::unordered_set<std::string_view> splitCalls;  ///< Names in front of brackets that a condition stands in.
 
     SourceText() = default;
     SourceText(const SourceText&) = delete;
@@ -85,12 +86,12 @@ std::unique_ptr<SourceText> readSource(std::string_view text, const std::string&
 class OpenCalls {
 public:
     /// Takes the names in front of the brackets.
-    explicit OpenCalls(std::vector<std::string_view>& names) : names_(names) {}
+    explicit OpenCalls(std::unordered_set<std::string_view>& names) : names_(names) {}
     /// False when the statement begins in this line.
     bool readBack(std::string_view text);
 
 private:
-    std::vector<std::string_view>& names_;
+    std::unordered_set<std::string_view>& names_;
     std::size_t closed_ = 0;
 };
 constexpr std::size_t kMostCallLines = 200;  ///< That one call reaches over, where conditions stand in it.

@@ -81,5 +81,27 @@ TEST(CocosMacroArgument, ValuesKeepTheSemicolonOfTheirStatement) {
     bench.compile({{"USE_A", "1"}});
 }
 
+TEST(CocosMacroArgument, NestingAndOpenCallsEnd) {
+    const auto repeat = [](const std::string& text, int count) {
+        std::string all;
+        for (int i = 0; i < count; ++i) all += text;
+        return all;
+    };
+    const std::string macros = "#define ADD(a, b) (a + b)\n#define CH(x) \\\n#if USE_A \\\n x \\\n#endif\n" + kColor;
+    const auto nested = [&](int depth) {
+        return macros + "void main() { color = vec4(" + repeat("ADD(", depth) + "CH(1.0)" + repeat(", 1.0)", depth) +
+               "); }\n";
+    };
+    CocosBench bench;
+    bench.fragment(nested(30));
+    bench.compile({{"USE_A", "1"}});
+    bench.fragment(nested(2000));
+    EXPECT_EQ(bench.problem().message, "macro 'ADD' expands without end");
+    bench.fragment(macros + "void main() {}\n" + repeat("CH(\n", 20'000));
+    EXPECT_EQ(bench.problem().message, "the call of macro 'CH' is not closed");
+    bench.fragment(macros + "void main() {}\nfloat y = ADD(\n" + repeat("CH(\n#if USE_A\n", 10'000));
+    EXPECT_THAT(bench.problem().message, HasSubstr("is not closed"));
+}
+
 }  // namespace
 }  // namespace crevice::cocos
