@@ -249,5 +249,41 @@ TEST_F(GltfMaterialDraw, BumpsOfBackFacesAreReversed) {
     }
 }
 
+// Appendix B.3.5: half metal is half of what the metal and half of what the dielectric sends to the viewer.
+TEST_F(GltfMaterialDraw, HalfMetalsAreTheMeanOfBoth) {
+    const auto wall = [&](const char* metallic) {
+        ModelText model;
+        const int material = model.add("materials",
+                                       R"({"pbrMetallicRoughness": {"baseColorFactor": [0.8, 0.4, 0.2, 1],
+            "roughnessFactor": 0.5, "metallicFactor": )" +
+                                           std::string(metallic) + "}}");
+        model.rectangleMesh(glm::vec2(-1), glm::vec2(1), material);
+        model.root("\"mesh\": 0");
+        return sceneOf(model);
+    };
+    const Log silent(LogLevel::Error);
+    Image white(16, 8, Format::RGBA32F);
+    const std::vector<float> ones(16 * 8 * 4, 1.0f);
+    std::memcpy(white.pixels.data(), ones.data(), white.pixels.size());
+    for (const char* pipeline : {"deferred", "forward"}) {
+        for (const bool fromAllAround : {false, true}) {
+            std::vector<glm::vec3> found;
+            for (const char* metallic : {"0", "0.5", "1"}) {
+                Scene scene = wall(metallic);
+                if (fromAllAround)
+                    scene.environment = makeEnvironment(white, "white", silent);
+                else
+                    scene.lights = {directional({-0.6f, -0.3f, -1}, 3)};
+                found.push_back(seen(pictureOf(std::move(scene), pipeline), 0.1f, 0.1f));
+            }
+            for (int c = 0; c < 3; ++c) {
+                EXPECT_NEAR(found[1][c], (found[0][c] + found[2][c]) / 2, 4 * kHalfUnit) << pipeline << ' ' << c;
+                EXPECT_GT(found[0][c], 0.05f) << pipeline;
+                EXPECT_GT(found[2][c], 0.05f) << pipeline;
+            }
+        }
+    }
+}
+
 }  // namespace
 }  // namespace crevice
