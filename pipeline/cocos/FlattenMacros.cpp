@@ -353,7 +353,8 @@ bool Flattener::writeLines(const BodyLines& lines, Pending& pending, const Sourc
 void Flattener::stopExpanding(const MacroDefinition& macro) {
     if (stopped_) return;
     stopped_ = true;
-    if (active_.size() < limits_.maxDepth && expansions_ - before_.expansions <= limits_.maxExpansions / 2 &&
+    const bool deep = active_.size() >= limits_.maxDepth || argumentDepth_ >= limits_.maxDepth;
+    if (!deep && expansions_ - before_.expansions <= limits_.maxExpansions / 2 &&
         written_ - before_.written <= limits_.maxBytes / 2)  // It only came last.
         return problems_.error(callPlace_, "the macros of this stage write more than it can hold",
                                "call fewer, or fewer in one line: several definitions multiply the line");

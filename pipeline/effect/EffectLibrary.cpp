@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <deque>
+#include <set>
 
 #include "core/Text.h"
 #include "effect/EffectFrontEnd.h"
@@ -22,6 +23,7 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t kMaxEffectBytes = 16u << 20;
 constexpr std::size_t kRecentStages = 64;
+constexpr std::size_t kMostTold = 10'000;  ///< Messages that are remembered.
 
 }  // namespace
 
@@ -46,7 +48,9 @@ struct EffectLibrary::State {
     std::uint64_t made = 0;        ///< Variants so far: the last one's id.
     std::uint64_t generation = 0;  ///< Counts changes of generated chunks and of roots.
     Counters counters;
+    std::set<std::string> told;  ///< What was written to the log: a pipeline that loads again says it no more.
 
+    void tell(const Problems& said);
     const EffectAsset& asset(const std::string& effect, const SourceLoc& where);
     /// A file and who reads it; null = we do.
     struct Found {
@@ -104,6 +108,15 @@ EffectFrontEnd* EffectLibrary::State::readerOf(const EffectAsset& asset) const {
     return it == readers.end() ? nullptr : it->second;
 }
 
+void EffectLibrary::State::tell(const Problems& said) {
+    Problems fresh;
+    for (const Problem& problem : said.all()) {
+        const bool isNew = told.size() >= kMostTold || told.insert(formatProblem(problem)).second;
+        if (isNew) fresh.add(Error(std::vector<Problem>{problem}));
+    }
+    log.write(fresh);
+}
+
 /// A name below effects/, or a path that ends with .effect: relative to the document that asks, else to the current
 /// folder.
 fs::path EffectLibrary::State::findFile(const std::string& effect, const SourceLoc& where) const {
@@ -136,7 +149,7 @@ const EffectAsset& EffectLibrary::State::asset(const std::string& effect, const 
         reader != nullptr ? reader->parse(path, name, problems)
                           : parseEffect(readText(path, kMaxEffectBytes), name, path.string(), problems));
     problems.throwIfErrors();
-    log.write(problems);
+    tell(problems);
     if (reader != nullptr) readers[parsed.get()] = reader;
     return *(named[effect] = assets.emplace(path.string(), std::move(parsed)).first->second.get());
 }
@@ -227,7 +240,7 @@ CompiledPass EffectLibrary::State::compiledFor(const std::string& key, const std
     Problems remarks;
     compiled.info = reflectStages(compiled.code, sources, remarks);
     remarks.throwIfErrors();
-    log.write(remarks);
+    tell(remarks);
     ++counters.compiled;
     disk.store(key, compiled);
     return compiled;
@@ -271,14 +284,14 @@ const EffectVariant& EffectLibrary::State::make(const VariantRequest& request, c
         if (auto kept = disk.load(answer->content); kept && (kept->checked || !request.checkOnly)) {
             Problems said;
             if (!answer->problems.empty()) said.add(Error(answer->problems));
-            log.write(said);
+            tell(said);
             ++counters.fromDisk;
             return keep(effect, request, placeOf(answer->content), std::move(*kept));
         }
     }
     Problems said;
     const std::vector<StageSource> sources = stagesOf(effect, pass, request, bindings, said);
-    log.write(said);
+    tell(said);
     const std::string key = contentKey(sources, bindings);
     if (const auto it = byContent.find(placeOf(key)); it != byContent.end()) {
         ++counters.fromMemory;
@@ -305,6 +318,7 @@ EffectLibrary::EffectLibrary(AssetRoots roots, const Log& log, Options options)
                        {},
                        0,
                        0,
+                       {},
                        {}}) {}
 EffectLibrary::EffectLibrary(AssetRoots roots, const Log& log) : EffectLibrary(std::move(roots), log, Options{}) {}
 EffectLibrary::~EffectLibrary() = default;

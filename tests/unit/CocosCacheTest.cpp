@@ -87,6 +87,23 @@ TEST_F(CocosCache, RequestsAreAnsweredWithTheNotesTheyGave) {
     EXPECT_EQ(first, second);
 }
 
+TEST_F(CocosCache, NotesAreSaidOnceByALibrary) {
+    std::vector<std::string> notes;
+    const Log log(LogLevel::Note, [&](LogLevel, std::string_view message) { notes.emplace_back(message); });
+    EffectLibrary library(AssetRoots({}), log, {.useDiskCache = false});
+    library.addFrontEnd(std::make_unique<CocosEffects>(roots()));
+    VariantRequest request;
+    request.effect = "e";
+    library.get(request, {{"map", {0, 4}}});
+    ASSERT_EQ(notes.size(), 1u) << "'map' was bound by name";
+    library.setRoots(library.roots());  // as a pipeline does that loads for another scene
+    request.pass = 1;
+    library.get(request, {{"map", {0, 4}}});
+    EXPECT_EQ(notes.size(), 1u);
+    library.get(request, {{"map", {0, 5}}});
+    EXPECT_EQ(notes.size(), 2u) << "that is another note";
+}
+
 TEST_F(CocosCache, AChangedChunkIsSeen) {
     ask();
     writePlace("2.0");
