@@ -16,20 +16,14 @@ std::string blurDocument(const std::string& axis, const std::string& radius) {
            R"( }, "reads": { "aoMap": "made" }, "writes": ["blurred"] } ] }, "after": "GbufferFlow" } ] })";
 }
 
-/// A box in front of the wall scene: creases, tilted planes and depth steps in one frame.
-Scene busyScene() {
-    Scene scene = wallScene();
-    addBox(scene, {1.2f, 0.6f, 0.3f}, {0.8f, 1.2f, 0.7f});
-    return scene;
-}
-
 class AoBlur : public AoTest {};
 
 TEST_F(AoBlur, KeepsEveryConstantExactly) {
     // 256 tiles of 16 x 16 pixels, one for each byte value: whatever lies 8 pixels from a tile's rim sees only its own
     // value.
     writeFragment("test-map", "",
-                  "    ivec2 tile = ivec2(gl_FragCoord.xy) / 17;\n    result = float(tile.y * 16 + tile.x) / 255.0;");
+                  "    ivec2 tile = ivec2(gl_FragCoord.xy) / 17;\n    result = float(tile.y * 16 + tile.x) / 255.0;",
+                  "float");
     for (const char* axis : {"0", "1"}) {
         loadDocument(blurDocument(axis, "8"));
         renderer_->setScene(busyScene());
@@ -44,7 +38,7 @@ TEST_F(AoBlur, KeepsEveryConstantExactly) {
 }
 
 TEST_F(AoBlur, KeepsAMapThatNobodyWrote) {
-    writeFragment("test-map", "", "    result = 0.0;");
+    writeFragment("test-map", "", "    result = 0.0;", "float");
     // `made` is never written (its stage is off): it holds its clear value everywhere, borders of the frame included.
     for (const char* axis : {"0", "1"}) {
         loadDocument(blurDocument(axis, "8"), {{"Make.enabled", "false"}, {"made.clear", "0.6"}});
@@ -56,7 +50,7 @@ TEST_F(AoBlur, KeepsAMapThatNobodyWrote) {
 }
 
 TEST_F(AoBlur, RadiusZeroCopies) {
-    writeFragment("test-map", "", "    result = fract(dot(gl_FragCoord.xy, vec2(0.37, 0.73)));");
+    writeFragment("test-map", "", "    result = fract(dot(gl_FragCoord.xy, vec2(0.37, 0.73)));", "float");
     loadDocument(blurDocument("0", "0"));
     renderer_->setScene(busyScene());
     const View view = viewOf(wallCamera(4), 64, 64);
@@ -66,7 +60,7 @@ TEST_F(AoBlur, RadiusZeroCopies) {
 TEST_F(AoBlur, DoesNotBleedOverADepthStep) {
     // A plate two units above the floor: openness 0 on it, 1 beneath, which no blur may mix.
     writeFragment("test-map", "  uniform sampler2D viewDepth;",
-                  "    result = texture(viewDepth, v_uv).r < 14.5 ? 0.0 : 1.0;");
+                  "    result = texture(viewDepth, v_uv).r < 14.5 ? 0.0 : 1.0;", "float");
     Scene scene = emptyScene();
     addSquare(scene, {0, 0, 0}, {0, 1, 0}, 40);
     addSquare(scene, {0.3f, 2, 0.1f}, {0, 1, 0}, 1.1f);

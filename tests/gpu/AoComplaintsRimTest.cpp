@@ -57,7 +57,7 @@ TEST_F(AoPillar, TheBitmaskDarkensTheFloorBehindItAsBeforeIt) {
 Scene silhouettes() {
     Scene scene = emptyScene();
     addSquare(scene, {-15, 0, -12}, {0, 0, 1}, 30);
-    addMesh(scene, makeSphere(0.35f, 64), translated({-0.9f, -0.5f, 1}));
+    addObject(scene, makeSphere(0.35f, 64), translated({-0.9f, -0.5f, 1}));
     addBox(scene, {-1.1f, -0.5f, -0.8f}, {1.1f, 1.2f, 0.3f});
     addBox(scene, {0.9f, 0.5f, 0}, {0.3f, 1.2f, 0.3f});
     addBox(scene, {0.9f, 0.5f, 0.1f}, {1.2f, 0.3f, 0.4f});

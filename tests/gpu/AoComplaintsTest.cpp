@@ -173,7 +173,7 @@ TEST_P(AoComplaints, LeavesOccludeByTheirMask) {
             mesh.vertices.push_back(vertex);
         }
         mesh.indices = {0, 1, 2, 0, 2, 3};
-        addMesh(scene, mesh, translated({0, 0, 0.3f}), isMasked ? 1 : 0);
+        addObject(scene, mesh, translated({0, 0, 0.3f}), isMasked ? 1 : 0);
         return scene;
     };
     Camera camera = Camera::lookAt({0.5f, 0.4f, 6}, {0, 0, 0});
@@ -225,7 +225,7 @@ TEST_P(AoComplaints, NoDotsAndBandsAtATinyRadiusAndFullStrength) {
     // A ball of many facets with smooth normals on a plane that is seen flat: nothing occludes but their contact.
     Scene scene = emptyScene();
     addSquare(scene, {0, 0, 0}, {0, 1, 0}, 400);
-    addMesh(scene, makeSphere(1, 128), translated({0, 1, 0}));
+    addObject(scene, makeSphere(1, 128), translated({0, 1, 0}));
     Camera camera = Camera::lookAt({0.3f, 1.6f, 6}, {0, 0.9f, 0});
     camera.fovY = kFovY;
     camera.near = 0.1f;

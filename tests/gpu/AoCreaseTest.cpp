@@ -25,9 +25,6 @@ std::uint32_t rowAtDistance(float distance) {
     return best;
 }
 
-/// Exact openness of the floor at `k` radii from an infinite wall (hard range): one minus a segment of the unit disc.
-double exactWall(double k) { return 1 - (std::acos(k) - k * std::sqrt(1 - k * k)) / 3.14159265358979; }
-
 class AoCrease : public AoTest {};
 
 TEST_F(AoCrease, WallsFootDarkensTheFloorLessAndLess) {

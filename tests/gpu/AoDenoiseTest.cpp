@@ -6,13 +6,6 @@ namespace {
 
 constexpr std::uint32_t kTile = 17;  // whatever lies in its middle sees only its own tile in three passes
 
-/// A box in front of a wall and its floor: creases, tilted planes and depth steps in one frame.
-Scene busyScene() {
-    Scene scene = wallScene();
-    addBox(scene, {1.2f, 0.6f, 0.3f}, {0.8f, 1.2f, 0.7f});
-    return scene;
-}
-
 class AoDenoise : public AoDenoiseTest {
 protected:
     double noiseAfter(const std::string& denoiser, const std::string& passes, const View& view,

@@ -52,15 +52,6 @@ protected:
     bool isSelfNormalised() const { return GetParam().technique == "gtao" || GetParam().technique == "vbao"; }
 };
 
-/// Through the point at `distance` on the axis, tilted towards a direction that is no axis of the screen.
-Scene tiltedPlane(float degrees, float distance) {
-    const float tilt = degrees * kPi / 180;
-    Scene scene = emptyScene();
-    const glm::vec3 normal(std::sin(tilt) * 0.3f, std::sin(tilt) * std::sqrt(1 - 0.09f), std::cos(tilt));
-    addSquare(scene, {0, 0, -distance}, normal, 60 * distance);
-    return scene;
-}
-
 /// Sees nothing but a plane of that tilt: narrow where it is steep.
 Camera planeCamera(bool orthographic, float degrees, float distance) {
     Camera camera;

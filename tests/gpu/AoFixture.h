@@ -1,22 +1,13 @@
-// Ambient occlusion tests: a validated renderer, maps as floats, small scenes of planes and boxes, documents and
-// effects of a test.
+// What tests of ambient occlusion share: maps as floats, and small scenes of planes and boxes.
 #pragma once
-
-#include <gtest/gtest.h>
-
-#include <glm/gtc/matrix_transform.hpp>
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
-#include <map>
-#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "app/Renderer.h"
-#include "scene/Primitives.h"
+#include "RenderFixture.h"
 
 namespace crevice {
 
@@ -78,29 +69,17 @@ inline Scene emptyScene() {
     return scene;
 }
 
-inline void addMesh(Scene& scene, Mesh mesh, const glm::mat4& world, int material = 0) {
-    updateBounds(mesh);
-    scene.meshes.push_back(std::move(mesh));
-    Instance instance;
-    instance.mesh = static_cast<int>(scene.meshes.size()) - 1;
-    instance.material = material;
-    instance.world = world;
-    scene.instances.push_back(instance);
-}
-
-inline glm::mat4 translated(const glm::vec3& offset) { return glm::translate(glm::mat4(1), offset); }
-
 /// A square through `point` that faces `normal`.
 inline void addSquare(Scene& scene, const glm::vec3& point, const glm::vec3& normal, float size, int material = 0) {
     const glm::vec3 n = glm::normalize(normal);
     const glm::vec3 aside = std::abs(n.x) < 0.9f ? glm::vec3(1, 0, 0) : glm::vec3(0, 0, 1);
     const glm::vec3 u = glm::normalize(glm::cross(aside, n));
     const glm::mat4 world(glm::vec4(u, 0), glm::vec4(n, 0), glm::vec4(glm::cross(u, n), 0), glm::vec4(point, 1));
-    addMesh(scene, makePlane(glm::vec2(size)), world, material);
+    addObject(scene, makePlane(glm::vec2(size)), world, material);
 }
 
 inline void addBox(Scene& scene, const glm::vec3& centre, const glm::vec3& size, int material = 0) {
-    addMesh(scene, makeBox(size), translated(centre), material);
+    addObject(scene, makeBox(size), translated(centre), material);
 }
 
 /// Floor y = 0 and wall x = 0, which the floor meets from x > 0; both reach far.
@@ -135,78 +114,35 @@ inline float floorDistance(std::uint32_t row, std::uint32_t rows, float height) 
     return down * 1.41421356f;
 }
 
-inline View viewOf(const Camera& camera, std::uint32_t width, std::uint32_t height) {
-    View view{.width = width, .height = height};
-    view.camera = camera;
-    return view;
+/// Exact openness of the floor at `k` radii from an infinite wall (hard range, cosine-weighted): one minus a segment of
+/// the unit disc.
+inline double exactWall(double k) { return 1 - (std::acos(k) - k * std::sqrt(1 - k * k)) / 3.14159265358979; }
+
+/// wallScene() with a box in front of the wall: creases and depth steps in one frame.
+inline Scene busyScene() {
+    Scene scene = wallScene();
+    addBox(scene, {1.2f, 0.6f, 0.3f}, {0.8f, 1.2f, 0.7f});
+    return scene;
 }
 
-class AoTest : public testing::Test {
+/// A plane that the axis -z meets at that distance, tilted towards a direction that is no axis: no component of its
+/// normal is special.
+inline Scene tiltedPlane(float degrees, float distance) {
+    const float tilt = glm::radians(degrees);
+    Scene scene = emptyScene();
+    const glm::vec3 normal(std::sin(tilt) * 0.3f, std::sin(tilt) * std::sqrt(1 - 0.09f), std::cos(tilt));
+    addSquare(scene, {0, 0, -distance}, normal, 60 * distance);
+    return scene;
+}
+
+class AoTest : public RenderTest {
 protected:
-    using Options = std::map<std::string, std::string>;
-    using Sets = std::vector<StageSet>;
-
-    void SetUp() override {
-        const auto* test = testing::UnitTest::GetInstance()->current_test_info();
-        folder_ = std::filesystem::temp_directory_path() /
-                  (std::string("crevice-ao-") + test->test_suite_name() + "-" + test->name());
-        std::filesystem::create_directories(folder_ / "effects");
-        renderer_ = makeRenderer();
-    }
-    void TearDown() override {
-        if (renderer_) {
-            for (const std::string& message : renderer_->device().validationMessages()) ADD_FAILURE() << message;
-            EXPECT_EQ(renderer_->device().validationMessageCount(), 0u);
-        }
-        renderer_.reset();
-        std::filesystem::remove_all(folder_);
-    }
-
-    std::unique_ptr<Renderer> makeRenderer() {
-        AssetRoots roots = AssetRoots::standard();
-        roots.prepend(folder_);
-        return std::make_unique<Renderer>(
-            RendererOptions{.validate = true, .defaultLight = false, .roots = roots, .log = log_});
-    }
+    AoTest() : RenderTest(LogLevel::Error) {}
 
     /// The raw map of a form, as full floats: no lighting, no picture.
     void loadMap(const std::string& form = "default", Sets sets = {}, const RunInfo& run = {.width = 1, .height = 1}) {
         sets.insert(sets.begin(), {.path = "cc_ssaoMap.format", .value = "R32F"});
         load("ao-only", {{"view", "raw"}, {"form", form}}, std::move(sets), run);
-    }
-    /// The shipped pipeline; `options` as on the command line.
-    void load(const std::string& pipeline, const Options& options = {}, Sets sets = {},
-              const RunInfo& run = {.width = 1, .height = 1}) {
-        renderer_->load({.nameOrPath = pipeline, .options = options, .sets = std::move(sets)}, run);
-    }
-    /// A document of the test itself.
-    void loadDocument(const std::string& text, Sets sets = {}, Options options = {}) {
-        const std::filesystem::path path = folder_ / "test.pipeline.json";
-        writeFileAtomically(path, text);
-        renderer_->load({.nameOrPath = path.string(), .options = std::move(options), .sets = std::move(sets)},
-                        {.width = 1, .height = 1});
-    }
-    /// An effect of the test itself, found by name.
-    void writeEffect(const std::string& name, const std::string& text) {
-        writeFileAtomically(folder_ / "effects" / (name + ".effect"), text);
-    }
-    /// A full-screen effect from the body of its fragment program; `out` is the type of its output `result`.
-    void writeFragment(const std::string& name, const std::string& declarations, const std::string& body,
-                       const std::string& out = "float") {
-        writeEffect(name,
-                    "CCEffect %{\n  techniques:\n  - passes:\n    - vert: fullscreen-vs\n      frag: test-fs\n"
-                    "      rasterizerState: { cullMode: none }\n"
-                    "      depthStencilState: { depthTest: false, depthWrite: false }\n}%\n"
-                    "CCProgram test-fs %{\n  precision highp float;\n" +
-                        declarations + "\n  in vec2 v_uv;\n  layout(location = 0) out " + out +
-                        " result;\n  void main() {\n" + body + "\n  }\n}%\n");
-    }
-
-    Image target(const View& view, const std::string& name) {
-        View keeping = view;
-        keeping.keep = {name};
-        renderer_->render(keeping);
-        return renderer_->target(name);
     }
     FloatMap map(const View& view, const std::string& name = "cc_ssaoMap") { return FloatMap(target(view, name)); }
 
@@ -215,10 +151,6 @@ protected:
             if (program.desc->name == name) return program;
         throw Error("no stage " + name);
     }
-
-    Log log_{LogLevel::Error};
-    std::filesystem::path folder_;
-    std::unique_ptr<Renderer> renderer_;
 };
 
 }  // namespace crevice

@@ -127,7 +127,7 @@ protected:
         addBox(scene_, {1.1f, 0.55f, 0.7f}, {0.9f, 1.1f, 0.8f});
         const glm::mat4 turned =
             glm::rotate(translated({2.2f, 0.4f, 1.9f}), 0.7f, glm::normalize(glm::vec3(0.3f, 1, 0.2f)));
-        addMesh(scene_, makeSphere(0.5f, 32), turned);
+        addObject(scene_, makeSphere(0.5f, 32), turned);
         camera_ = Camera::lookAt({5.5f, 4.2f, 4.4f}, {0.9f, 0.5f, 0.8f});
         camera_.fovY = glm::radians(40.0f);
         camera_.lensShift = {0.35f, -0.25f};

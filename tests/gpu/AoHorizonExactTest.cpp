@@ -69,7 +69,7 @@ Scene bowlScene() {
         if (!above) lower.insert(lower.end(), mesh.indices.begin() + i, mesh.indices.begin() + i + 3);
     }
     mesh.indices = std::move(lower);
-    addMesh(scene, std::move(mesh), glm::mat4(1));
+    addObject(scene, std::move(mesh), glm::mat4(1));
     return scene;
 }
 

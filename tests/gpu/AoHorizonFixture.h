@@ -2,9 +2,6 @@
 // show.
 #pragma once
 
-#include <functional>
-#include <optional>
-
 #include "AoFixture.h"
 
 namespace crevice {

@@ -43,9 +43,6 @@ protected:
     bool stageReads(const std::string& stageName, const std::string& target) const { return reads(stageName, target); }
 };
 
-/// Exact openness of the floor at `k` radii from an infinite wall, hard range, cosine-weighted.
-inline double exactWall(double k) { return 1 - (std::acos(k) - k * std::sqrt(1 - k * k)) / 3.14159265358979; }
-
 /// Seen straight on and in parallel: a wall 10 units away, and a plate `gap` in front of it that covers the left half.
 inline Scene halfPlate(float gap) {
     Scene scene = emptyScene();

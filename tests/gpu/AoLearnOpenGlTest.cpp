@@ -76,7 +76,8 @@ TEST_F(AoLearnOpenGl, L4_SkyIsNearerThanAnything) {
 
 TEST_F(AoLearnOpenGl, L8_BlurIsHalfAPixelOffAndCrossesEdges) {
     // One bright pixel: the mean of two before and one behind moves it by half a pixel.
-    writeFragment("ao-impulse", "", "    ivec2 p = ivec2(gl_FragCoord.xy); result = p == ivec2(30, 20) ? 0.0 : 1.0;");
+    writeFragment("ao-impulse", "", "    ivec2 p = ivec2(gl_FragCoord.xy); result = p == ivec2(30, 20) ? 0.0 : 1.0;",
+                  "float");
     loadTechnique("learnopengl", "article",
                   {{"AoArticle.effect", "ao-impulse"},
                    {"cc_ssaoBlurMap.format", "R32F"},
@@ -98,7 +99,7 @@ TEST_F(AoLearnOpenGl, L8_BlurIsHalfAPixelOffAndCrossesEdges) {
     // A plate that is dark before a wall that is not: up to three of the four columns of the mean lie beyond the
     // silhouette.
     writeFragment("ao-step", "  uniform sampler2D viewDepth;",
-                  "    result = texture(viewDepth, v_uv).r < 6.0 ? 0.0 : 1.0;");
+                  "    result = texture(viewDepth, v_uv).r < 6.0 ? 0.0 : 1.0;", "float");
     loadTechnique("learnopengl", "article",
                   {{"AoArticle.effect", "ao-step"},
                    {"cc_ssaoBlurMap.format", "R32F"},

@@ -18,7 +18,8 @@ protected:
         const std::string percent = "  #pragma define-meta PERCENT range([-1, 100]) default(-1)\n";
         writeFragment("test-ao", percent,
                       std::string("  #if PERCENT < 0\n    result = ") + kOpenness +
-                          ";\n  #else\n    result = float(PERCENT) / 100.0;\n  #endif");
+                          ";\n  #else\n    result = float(PERCENT) / 100.0;\n  #endif",
+                      "float");
         writeFragment("test-bent", "",
                       "    result = mod(floor(gl_FragCoord.x), 2.0) < 0.5 ? vec4(0.51, 0.68, 0.0, 0.0) : vec4(0.0);",
                       "vec4");

@@ -16,15 +16,6 @@ struct Lens {
 };
 constexpr Lens kLenses[] = {{"perspective"}, {"orthographic", true}, {"shifted", false, {0.4f, -0.3f}}};
 
-Scene tiltedPlane(float degrees, float scale = 1) {
-    const float tilt = degrees * kPi / 180;
-    Scene scene = emptyScene();
-    // Tilted towards a direction that is no axis, so that no component of the normal is special.
-    const glm::vec3 normal(std::sin(tilt) * 0.3f, std::sin(tilt) * std::sqrt(1 - 0.09f), std::cos(tilt));
-    addSquare(scene, {0, 0, -kDistance * scale}, normal, 60 * kDistance * scale);
-    return scene;
-}
-
 Camera planeCamera(const Lens& lens, float degrees, float zPerNear, float far, float scale = 1) {
     Camera camera;
     camera.orthographic = lens.orthographic;
@@ -51,7 +42,7 @@ TEST_F(AoPlane, IsOpenAtEveryTiltThroughEveryLens) {
     for (const char* radius : {"0.1", "1", "10"}) {
         loadMap("default", {{"SsaoStage.material.radius", radius}});
         for (float degrees : {0.0f, 30.0f, 60.0f, 80.0f}) {
-            renderer_->setScene(tiltedPlane(degrees));
+            renderer_->setScene(tiltedPlane(degrees, kDistance));
             for (const Lens& lens : kLenses) {
                 expectOpen(planeCamera(lens, degrees, 50, 5000),
                            lens.name + std::string(", radius ") + radius + ", degrees " + std::to_string(degrees));
@@ -62,7 +53,7 @@ TEST_F(AoPlane, IsOpenAtEveryTiltThroughEveryLens) {
 
 TEST_F(AoPlane, IsOpenFromNearToFar) {
     loadMap("default", {{"SsaoStage.material.radius", "1"}});
-    renderer_->setScene(tiltedPlane(60));
+    renderer_->setScene(tiltedPlane(60, kDistance));
     for (float zPerNear : {10.0f, 100.0f, 1000.0f, 5000.0f})
         expectOpen(planeCamera(kLenses[0], 60, zPerNear, 1000), "z / near " + std::to_string(zPerNear));
 }
@@ -70,7 +61,7 @@ TEST_F(AoPlane, IsOpenFromNearToFar) {
 TEST_F(AoPlane, IsOpenInOtherUnitsOfLength) {
     for (float scale : {0.01f, 100.0f}) {
         loadMap("default", {{"SsaoStage.material.radius", std::to_string(scale)}});
-        renderer_->setScene(tiltedPlane(60, scale));
+        renderer_->setScene(tiltedPlane(60, kDistance * scale));
         for (const Lens& lens : kLenses) expectOpen(planeCamera(lens, 60, 50, 1000, scale), lens.name);
     }
 }
@@ -109,13 +100,13 @@ TEST_F(AoPlane, IsOpenHoweverItLies) {
 
 TEST_F(AoPlane, OccludesItselfWithoutBias) {
     loadMap("default", {{"SsaoStage.material.radius", "0.2"}, {"SsaoStage.material.bias", "0"}});
-    renderer_->setScene(tiltedPlane(60));
+    renderer_->setScene(tiltedPlane(60, kDistance));
     EXPECT_LT(map(viewOf(planeCamera(kLenses[0], 60, 50, 5000), kWidth, kHeight)).min(), 0.99f);
 }
 
 TEST_F(AoPlane, FarPlaneChangesNothing) {
     loadMap("default", {{"SsaoStage.material.radius", "1"}});
-    Scene scene = tiltedPlane(30);
+    Scene scene = tiltedPlane(30, kDistance);
     addBox(scene, {0, 0, -kDistance}, {1, 1, 1});
     renderer_->setScene(std::move(scene));
     const FloatMap nearby = map(viewOf(planeCamera(kLenses[0], 30, 50, 50), kWidth, kHeight));
@@ -128,7 +119,7 @@ TEST_F(AoPlane, ScaleOfTheWorldChangesNothing) {
     std::vector<FloatMap> maps;
     for (float scale : {1.0f, 100.0f}) {
         loadMap("default", {{"SsaoStage.material.radius", std::to_string(scale)}});
-        Scene scene = tiltedPlane(30, scale);
+        Scene scene = tiltedPlane(30, kDistance * scale);
         addBox(scene, glm::vec3(0, 0, -kDistance) * scale, glm::vec3(1.1f, 0.9f, 1) * scale);
         renderer_->setScene(std::move(scene));
         maps.push_back(map(viewOf(planeCamera(kLenses[0], 30, 50, 1000, scale), kWidth, kHeight)));

@@ -182,12 +182,7 @@ TEST_F(AoSongjihu, S9_BlursAcrossDepthSteps) {
         renderer_->setScene(scene);
         const FloatMap raw = map(frontView()), blurred = map(frontView(), "cc_ssaoBlurMap");
         const FloatMap depth = map(frontView(), "viewDepth");
-        float rawPlate = 1, blurredPlate = 1;
-        for (std::size_t i = 0; i < raw.values.size(); ++i) {
-            if (depth.values[i] > kDistance - 0.25f) continue;
-            rawPlate = std::min(rawPlate, raw.values[i]);
-            blurredPlate = std::min(blurredPlate, blurred.values[i]);
-        }
+        const float rawPlate = darkestOfPlate(raw, depth), blurredPlate = darkestOfPlate(blurred, depth);
         RecordProperty(quality, std::to_string(rawPlate) + " " + std::to_string(blurredPlate));
         EXPECT_GE(rawPlate, 1 - kByteStep);
         if (quality == "article")

@@ -19,15 +19,6 @@ protected:
     }
 };
 
-Scene tiltedPlane(float degrees, float scale = 1) {
-    const float tilt = degrees * kPi / 180;
-    Scene scene = emptyScene();
-    // Tilted towards a direction that is no axis, so that no component of the normal is special.
-    const glm::vec3 normal(std::sin(tilt) * 0.3f, std::sin(tilt) * std::sqrt(1 - 0.09f), std::cos(tilt));
-    addSquare(scene, {0, 0, -kDistance * scale}, normal, 60 * kDistance * scale);
-    return scene;
-}
-
 Camera planeCamera(bool orthographic, float degrees, float far = 500, float scale = 1) {
     Camera camera;
     camera.orthographic = orthographic;
@@ -41,15 +32,12 @@ Camera planeCamera(bool orthographic, float degrees, float far = 500, float scal
 
 /// A box that stands out of a tilted plane.
 Scene boxScene(float scale = 1) {
-    Scene scene = tiltedPlane(30, scale);
+    Scene scene = tiltedPlane(30, kDistance * scale);
     addBox(scene, glm::vec3(0, 0, -kDistance) * scale, glm::vec3(1.1f, 0.9f, 1) * scale);
     return scene;
 }
 
 View smallView(const Camera& camera) { return viewOf(camera, kWidth, kHeight); }
-
-/// What a wall at distance k radii leaves of the sky, cosine-weighted, where it counts up to the radius.
-double besideWall(double k) { return 1 - (std::acos(k) - k * std::sqrt(1 - k * k)) / double(kPi); }
 
 TEST_F(AoTechniques, PlaneIsOpen) {
     for (const std::string ao : kTechniques) {
@@ -57,7 +45,7 @@ TEST_F(AoTechniques, PlaneIsOpen) {
         // Shares of the hemisphere are divided by what an open plane has: one slice is exact.
         const float tolerance = ao == "gtao" || ao == "vbao" ? 1e-3f : kByteStep;
         for (float degrees : {0.0f, 30.0f, 60.0f, 80.0f}) {
-            renderer_->setScene(tiltedPlane(degrees));
+            renderer_->setScene(tiltedPlane(degrees, kDistance));
             for (bool orthographic : {false, true}) {
                 const FloatMap open = map(smallView(planeCamera(orthographic, degrees)));
                 const std::string what =
@@ -81,7 +69,7 @@ TEST_F(AoTechniques, ReferenceMeetsTheFormulaOfAWall) {
         const FloatMap ao1 = map(viewOf(wallCamera(kSeen), kColumns, kRows));
         for (float k : {0.2f, 0.5f}) {
             const auto row = static_cast<std::uint32_t>((k / 1.41421356f / kSeen + 0.5f) * kRows);
-            const double exact = besideWall(floorDistance(row, kRows, kSeen));
+            const double exact = exactWall(floorDistance(row, kRows, kSeen));
             EXPECT_NEAR(ao1.rowMean(row, 60, 100), exact, 0.01) << ao << " at " << k;
             RecordProperty(ao + std::to_string(k), std::to_string(ao1.rowMean(row, 60, 100) - exact));
         }
@@ -133,7 +121,7 @@ TEST_F(AoTechniques, ThinBarsDarkenLessWithTheBitmask) {
         Sets sets;
         if (ao == "vbao") sets = {{"AoMain.material.thickness", "0.1"}};
         loadTechnique(ao, 1, "ultra", sets);
-        Scene scene = tiltedPlane(0);
+        Scene scene = tiltedPlane(0, kDistance);
         addBox(scene, {0, 0, -kDistance + 0.5f}, {0.15f, 20, 0.1f});
         renderer_->setScene(std::move(scene));
         const View view = smallView(planeCamera(false, 30));

@@ -55,4 +55,12 @@ inline float darkestOfWall(const FloatMap& ao, const FloatMap& depth) {
     return darkest;
 }
 
+/// Smallest openness of the plate itself, where it stands 0.25 or more before the wall.
+inline float darkestOfPlate(const FloatMap& ao, const FloatMap& depth) {
+    float darkest = 1;
+    for (std::size_t i = 0; i < ao.values.size(); ++i)
+        if (depth.values[i] <= kDistance - 0.25f) darkest = std::min(darkest, ao.values[i]);
+    return darkest;
+}
+
 }  // namespace crevice

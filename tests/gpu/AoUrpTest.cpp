@@ -29,8 +29,6 @@ Camera frontCamera(float scale = 1) {
 
 View frontView(float scale = 1) { return viewOf(frontCamera(scale), kWidth, kHeight); }
 
-double besideWall(double k) { return 1 - (std::acos(k) - k * std::sqrt(1 - k * k)) / 3.14159265358979; }
-
 TEST_F(AoUrp, U2_LengthsAreTiedToTheIndex) {
     // Four samples have the lengths .5, .71, .87 and 1 in every pixel: averaged over pixels and seeds they do not come
     // to what many samples find beside a step. Lengths that noise moves do.
@@ -107,12 +105,7 @@ TEST_F(AoUrp, U6_BlursAcrossDepthSteps) {
         renderer_->setScene(plateScene(0.5f));
         const FloatMap raw = map(frontView()), blurred = map(frontView(), "cc_ssaoBlurMap");
         const FloatMap depth = map(frontView(), "viewDepth");
-        float rawPlate = 1, blurredPlate = 1;
-        for (std::size_t i = 0; i < raw.values.size(); ++i) {
-            if (depth.values[i] > kDistance - 0.25f) continue;
-            rawPlate = std::min(rawPlate, raw.values[i]);
-            blurredPlate = std::min(blurredPlate, blurred.values[i]);
-        }
+        const float rawPlate = darkestOfPlate(raw, depth), blurredPlate = darkestOfPlate(blurred, depth);
         RecordProperty(quality, std::to_string(rawPlate) + " " + std::to_string(blurredPlate));
         EXPECT_GE(rawPlate, 1 - kByteStep);
         if (quality == "article")
@@ -193,7 +186,7 @@ TEST_F(AoUrp, U9_StrengthMeetsTheCornerOfAWall) {
         EXPECT_GE(ao.rowMean(row, 60, 100), before - 0.002) << "farther is brighter, at " << k;
         before = ao.rowMean(row, 60, 100);
         if (k > 0.18 && k < 1) {
-            EXPECT_NEAR(before, besideWall(k), 0.05) << "at " << k;
+            EXPECT_NEAR(before, exactWall(k), 0.05) << "at " << k;
         }
     }
     EXPECT_LT(ao.min(), 0.66f);

@@ -4,15 +4,8 @@
 namespace crevice {
 namespace {
 
-constexpr float kHalfUnit = 1.0f / 1024;  // stores into half floats may round down by one unit of 11 bits
-
 class GltfDraw : public FrameTest {
 protected:
-    Image radianceOf(const Scene& scene, const std::string& pipeline, std::uint32_t size = 8) {
-        renderer_->setScene(scene);
-        load(pipeline);
-        return radiance(viewOf(frontCamera(), size, size));
-    }
     static int countLit(const Image& image) {
         int count = 0;
         for (std::uint32_t y = 0; y < image.height; ++y)

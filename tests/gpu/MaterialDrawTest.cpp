@@ -4,8 +4,6 @@
 namespace crevice {
 namespace {
 
-constexpr float kHalfUnit = 1.0f / 1024;  // stores into half floats may round down by one unit of 11 bits
-
 class MaterialDraw : public FrameTest {
 protected:
     /// A 1 x 1 texture.
@@ -24,11 +22,6 @@ protected:
         material.emissive = radiance;
         material.alphaMode = mode;
         return material;
-    }
-    Image radianceOf(const Scene& scene, const std::string& pipeline, std::uint32_t size = 8) {
-        renderer_->setScene(scene);
-        load(pipeline);
-        return radiance(viewOf(frontCamera(), size, size));
     }
 };
 

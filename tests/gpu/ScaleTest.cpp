@@ -33,12 +33,6 @@ protected:
         view.camera = Camera::lookAt(eye, {0, 0, 0});
         return view;
     }
-    static int largestDifference(const Image& a, const Image& b) {
-        int most = 0;
-        for (std::size_t i = 0; i < a.pixels.size(); ++i)
-            most = std::max(most, std::abs(std::to_integer<int>(a.pixels[i]) - std::to_integer<int>(b.pixels[i])));
-        return most;
-    }
     static std::size_t differingPixels(const Image& a, const Image& b) {
         std::size_t count = 0;
         for (std::size_t i = 0; i < a.pixels.size(); i += 4)
@@ -135,7 +129,7 @@ TEST_F(Scale, ManyLightsLookLikeBruteForce) {
         const Image culled = renderer_->render(view);
         load(pipeline, {}, {{std::string(stage) + ".defines.BRUTE_FORCE_LIGHTS", "true"}});
         const Image brute = renderer_->render(view);
-        EXPECT_LE(largestDifference(culled, brute), 1) << pipeline;
+        EXPECT_LE(largestByteDifference(culled, brute), 1) << pipeline;
         Scene dark = scene;
         dark.lights.clear();
         renderer_->setScene(dark);
@@ -161,7 +155,7 @@ TEST_F(Scale, LightsWithoutARangeAreLeftOutOnlyWhereTheyCannotBeSeen) {
     renderer_->setScene(scene);
     const Image culled = renderer_->render(view);
     load("deferred", {}, {{"LightingStage.defines.BRUTE_FORCE_LIGHTS", "true"}});
-    EXPECT_LE(largestDifference(culled, renderer_->render(view)), 1);
+    EXPECT_LE(largestByteDifference(culled, renderer_->render(view)), 1);
     EXPECT_GT(mean(culled), 64.2) << "63.75 is black, with alpha 255";
 }
 
