@@ -11,6 +11,7 @@
 
 #include "core/Text.h"
 #include "effect/Declarations.h"
+#include "effect/GlslTypeText.h"
 
 namespace crevice {
 namespace {
@@ -42,10 +43,7 @@ std::optional<Message> parseMessage(std::string_view line) {
         line.remove_prefix(close + 4);
     }
     line.remove_prefix(std::min(line.find_first_not_of(' '), line.size()));
-    message.text = line;
-    if (const auto blank = message.text.find("' ");
-        blank != std::string::npos && message.text.find("from ' ") + 5 == blank)
-        message.text.erase(blank + 1, 1);
+    message.text = plainGlslTypes(std::string(line));
     while (!message.text.empty() && message.text.back() == ' ') message.text.pop_back();
     return message;
 }
@@ -127,7 +125,11 @@ std::string plainSyntax(const std::string& text) {
 
 std::string adviceFor(std::string_view text) {
     if (text == "undeclared identifier") return "declare it, or include the chunk that does";
-    if (contains(text, "cannot convert")) return "GLSL turns int into float and nothing else: write the conversion";
+    if (contains(text, "cannot convert")) {
+        return contains(text, "vec")
+                   ? "build the type by its name, or take the components you mean: vec4(v, 1.0), v.rgb"
+                   : "GLSL turns int into float and nothing else: write the conversion";
+    }
     if (contains(text, "constructor") || contains(text, "construction"))
         return "give as many components as the type has";
     if (contains(text, "no matching overloaded function"))
@@ -200,6 +202,9 @@ std::string plainLink(std::string text) {
     return text;
 }
 
+/// glslang's own name of what the line does; no word of the program.
+bool isOperation(const std::string& word) { return word == "assign" || word == "constructor" || word == "="; }
+
 Problem describe(const Message& message, const StageSource& source, int line) {
     if (contains(message.text + message.word, "non-opaque uniforms outside a block")) {
         const std::string name = looseUniformName(source, line);
@@ -221,7 +226,8 @@ Problem describe(const Message& message, const StageSource& source, int line) {
     Problem problem{Severity::Error, placeOf(source, line, message.word),
                     "GLSL: " + (syntax ? plainSyntax(message.text) : message.text),
                     syntax ? "a ';' or a bracket may be missing in front of it" : adviceFor(message.text)};
-    if (!message.word.empty()) problem.message = fmt::format("GLSL: '{}': {}", message.word, message.text);
+    if (!message.word.empty() && !isOperation(message.word))
+        problem.message = fmt::format("GLSL: '{}': {}", message.word, message.text);
     if (const std::string old = adviceForOldFunctions(lineOf(source, line)); !old.empty()) {
         problem.help = old;
     } else if (contains(message.text, "no matching overloaded function") && isMacroOf(source, message.word)) {

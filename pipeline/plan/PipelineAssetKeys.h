@@ -89,6 +89,8 @@ public:
     std::optional<double> number(std::string_view key) const;
     std::optional<int> integer(std::string_view key) const;
     bool isObject() const { return object_ != nullptr; }
+    /// Whether an unknown key was reported that looks like this one: that it is missing need not be said as well.
+    bool isMisspelt(std::string_view key) const;
     const std::string& what() const { return what_; }
 
 private:
@@ -96,7 +98,7 @@ private:
 
     const Value* object_ = nullptr;
     std::string what_;
-    std::vector<std::string> bad_;
+    std::vector<std::string> bad_, misspelt_;
 };
 
 /// Whether a stage is an object with a class and a good name, and a flow one with a name and, if any, an array of

@@ -139,12 +139,17 @@ ObjectReader::ObjectReader(const Value& object, const KeyTable& table, std::stri
         } else {
             problems.error(member.keyLoc, fmt::format("unknown key '{}' in {}", member.key, what_),
                            didYouMean(member.key, table.names(), "keys"));
+            for (std::string& near : nearestNames(member.key, table.names())) misspelt_.push_back(std::move(near));
         }
     }
     for (const KeySpec& spec : table.keys)
-        if (spec.required && !object.find(spec.key))
+        if (spec.required && !object.find(spec.key) && !isMisspelt(spec.key))
             problems.error(object.where(), fmt::format("missing key '{}' in {}", spec.key, what_),
                            fmt::format("add \"{}\": {}", spec.key, keyTypeName(spec)));
+}
+
+bool ObjectReader::isMisspelt(std::string_view key) const {
+    return std::find(misspelt_.begin(), misspelt_.end(), key) != misspelt_.end();
 }
 
 void ObjectReader::check(const Member& member, const KeySpec& spec, Problems& problems) {

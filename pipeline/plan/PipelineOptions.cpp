@@ -104,7 +104,7 @@ void readOption(const Member& member, std::vector<OptionDesc>& options, Problems
     if (type) {
         option.type = static_cast<OptionType>(std::find(types.begin(), types.end(), type->string()) - types.begin());
         if (option.type == OptionType::Choice && choices) option.choices = readChoices(*choices, option, problems);
-        if (option.type == OptionType::Choice && !member.value.find("choices"))
+        if (option.type == OptionType::Choice && !member.value.find("choices") && !reader.isMisspelt("choices"))
             problems.error(member.value.where(), fmt::format("missing key 'choices' in option '{}'", option.name),
                            "add \"choices\": [ \"…\" ]");
         if (option.type == OptionType::Bool && choices) checkBoolChoices(*choices, option, problems);

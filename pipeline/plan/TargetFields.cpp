@@ -121,7 +121,7 @@ OpenTarget readTarget(const Member& member, const Value& all, Problems& problems
     }
     if (const Value* format = reader.get("format")) target.format = *formatFromName(format->string());
     open.hasFormat = open.hasFormat || member.value.find("format");
-    if (!open.hasFormat && !member.value.find("like"))
+    if (!open.hasFormat && !member.value.find("like") && !reader.isMisspelt("format") && !reader.isMisspelt("like"))
         problems.error(member.value.where(), fmt::format("missing key 'format' in {}", what),
                        "add \"format\", such as \"RGBA8\", or \"like\" with the name of another target");
     readExtent(reader, open, problems);
