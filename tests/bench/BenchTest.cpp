@@ -1,6 +1,5 @@
 // Keeps the yardsticks still, and frames from growing: the texts that ratios refer to, memory from frame to frame,
 // stage times.
-#include <cmath>
 #include <fstream>
 
 #include <unistd.h>

@@ -1,7 +1,6 @@
 // What the benchmark renders: the scene, and one pipeline per case with the processor time of each of its stages.
 #pragma once
 
-#include <filesystem>
 #include <string>
 #include <vector>
 

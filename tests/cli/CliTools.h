@@ -42,6 +42,10 @@ protected:
     /// Runs, expects code 2 (or 1), `message` and `help` on stderr, nothing on stdout and no new file.
     void expectRefused(const std::string& arguments, const std::string& message, const std::string& help, int code = 2);
 
+    static void expectHas(const std::string& text, const std::string& part) {
+        EXPECT_NE(text.find(part), std::string::npos) << "'" << part << "' is not in: " << text;
+    }
+
 private:
     std::filesystem::path folder_;
 };

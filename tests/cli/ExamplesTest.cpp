@@ -1,5 +1,4 @@
 // Every example that a --help shows is run.
-#include <algorithm>
 #include <fstream>
 
 #include "CliTools.h"

@@ -5,27 +5,13 @@
 #include "CliTools.h"
 #include "core/Files.h"
 #include "core/Image.h"
+#include "tests/ScopedVariable.h"
 
 namespace crevice::cli {
 namespace {
 
+using test::ScopedVariable;
 using Names = std::vector<std::string>;
-
-/// A variable of the environment that the program inherits; its old value comes back.
-class ScopedVariable {
-public:
-    ScopedVariable(const char* name, const char* value) : name_(name) {
-        if (const char* old = std::getenv(name)) old_ = old;
-        setenv(name, value, 1);
-    }
-    ~ScopedVariable() { old_.empty() ? unsetenv(name_) : setenv(name_, old_.c_str(), 1); }
-    ScopedVariable(const ScopedVariable&) = delete;
-    ScopedVariable& operator=(const ScopedVariable&) = delete;
-
-private:
-    const char* name_;
-    std::string old_;
-};
 
 /// The largest file that the program may write.
 class ScopedFileSize {
@@ -52,9 +38,6 @@ protected:
     void expectUntouched() {
         EXPECT_EQ(files(), Names{"a.png"});
         EXPECT_EQ(readText(path("a.png")), "an earlier picture");
-    }
-    static void expectHas(const std::string& text, const std::string& part) {
-        EXPECT_NE(text.find(part), std::string::npos) << "'" << part << "' is not in: " << text;
     }
 };
 

@@ -21,9 +21,6 @@ protected:
         write("shared/triangle.bin", std::string(reinterpret_cast<const char*>(corners), sizeof corners));
         write("scene/a.gltf", kTriangle);
     }
-    static void expectHas(const std::string& text, const std::string& part) {
-        EXPECT_NE(text.find(part), std::string::npos) << "'" << part << "' is not in: " << text;
-    }
 };
 
 TEST_F(SceneOptionsTest, FilesOutsideTheSceneFolderNeedAllowPath) {

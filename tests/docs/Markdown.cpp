@@ -3,8 +3,6 @@
 
 #include <algorithm>
 #include <cctype>
-#include <fstream>
-#include <iterator>
 #include <regex>
 #include <sstream>
 
@@ -34,11 +32,6 @@ std::vector<std::string> proseLines(const std::string& markdown) {
 }
 
 }  // namespace
-
-std::string readText(const fs::path& path) {
-    std::ifstream in(path);
-    return {std::istreambuf_iterator<char>(in), {}};
-}
 
 std::vector<std::string> splitLines(const std::string& text) {
     std::vector<std::string> lines;

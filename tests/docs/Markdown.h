@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "core/Files.h"
+
 namespace crevice::docs {
 
 struct Block {
@@ -20,7 +22,6 @@ struct Link {
     int line = 0;
 };
 
-std::string readText(const std::filesystem::path& path);
 std::vector<std::string> splitLines(const std::string& text);
 std::vector<Block> blocksOf(const std::string& markdown);
 /// Links and images outside of fenced blocks and code spans.

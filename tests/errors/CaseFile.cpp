@@ -8,6 +8,8 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "core/Files.h"
+
 namespace crevice::errors {
 namespace {
 
@@ -18,14 +20,6 @@ constexpr const char* kExpected = "expected";
 
 [[noreturn]] void refuse(const fs::path& path, const std::string& why) {
     throw std::runtime_error(path.string() + ": " + why);
-}
-
-std::string readAll(const fs::path& path) {
-    std::ifstream in(path, std::ios::binary);
-    std::ostringstream text;
-    text << in.rdbuf();
-    if (!in) refuse(path, "cannot be read");
-    return text.str();
 }
 
 std::string trim(const std::string& text) {
@@ -108,7 +102,7 @@ Case readCase(const fs::path& path) {
     c.path = path;
     c.area = path.parent_path().filename().string();
     c.name = path.stem().string();
-    std::istringstream lines(readAll(path));
+    std::istringstream lines(readText(path));
     std::string title, body;
     bool inHeader = true;
     for (std::string line; std::getline(lines, line);) {
@@ -147,7 +141,7 @@ std::vector<std::string> listAreas() {
 }
 
 void writeExpected(const Case& theCase, const std::string& text) {
-    std::string whole = readAll(theCase.path);
+    std::string whole = readText(theCase.path);
     const std::size_t at = whole.rfind(std::string("\n") + kMarker + kExpected + "\n");
     if (at != std::string::npos) whole.resize(at + 1);
     if (!whole.ends_with('\n')) whole += '\n';

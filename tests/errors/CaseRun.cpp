@@ -6,7 +6,6 @@
 #include <fstream>
 #include <map>
 #include <regex>
-#include <sstream>
 #include <stdexcept>
 #include <thread>
 
@@ -15,6 +14,8 @@
 #include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
+
+#include "core/Files.h"
 
 extern char** environ;
 
@@ -25,13 +26,6 @@ namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
 constexpr auto kTimeLimit = std::chrono::seconds(60);  // generous: builds with sanitizers run these too
-
-std::string readAll(const fs::path& path) {
-    std::ifstream in(path, std::ios::binary);
-    std::ostringstream text;
-    text << in.rdbuf();
-    return text.str();
-}
 
 /// A folder that is gone afterwards: `case` inside it is what the program sees, its streams lie beside.
 class Workplace {
@@ -61,7 +55,7 @@ public:
         std::map<std::string, std::string> files;
         for (const auto& entry : fs::recursive_directory_iterator(folder()))
             if (entry.is_regular_file())
-                files[entry.path().lexically_relative(folder()).string()] = readAll(entry.path());
+                files[entry.path().lexically_relative(folder()).string()] = readText(entry.path());
         return files;
     }
 
@@ -161,8 +155,8 @@ Answer runCase(const Case& theCase) {
     const std::map<std::string, std::string> before = place.content();
     Answer answer;
     waitFor(spawn(theCase, place), answer);
-    answer.results = readAll(place.stream("out"));
-    answer.messages = readAll(place.stream("err"));
+    answer.results = readText(place.stream("out"));
+    answer.messages = readText(place.stream("err"));
     replaceAll(answer.messages, place.folder().string(), "$CASE");
     replaceAll(answer.messages, CREVICE_TEST_SOURCE_DIR, "$DATA");
     answer.messages = withoutAssetDetails(std::move(answer.messages));

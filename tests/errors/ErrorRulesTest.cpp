@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "CaseFile.h"
+#include "core/Files.h"
 
 namespace crevice::errors {
 namespace {
@@ -18,13 +19,6 @@ constexpr std::size_t kFewestCases = 200;
 constexpr const char* kTableBegin =
     "<!-- causes: written by the tests of tests/errors; a test fails when it is stale -->\n";
 constexpr const char* kTableEnd = "<!-- end of causes -->\n";
-
-std::string readAll(const char* path) {
-    std::ifstream in(path, std::ios::binary);
-    std::ostringstream text;
-    text << in.rdbuf();
-    return text.str();
-}
 
 /// The text of a message from one `error:` to the next.
 std::vector<std::string> splitProblems(const Case& c) {
@@ -54,8 +48,8 @@ std::vector<std::string> unquotedNames(const std::string& message) {
 
 TEST(ErrorRules, ThereAreEnoughCasesInEveryArea) {
     EXPECT_GE(readAllCases().size(), kFewestCases);
-    EXPECT_EQ(listAreas(), (std::vector<std::string>{"arguments", "cocos", "effects", "gltf", "json", "materials", "pipelines",
-                                                     "planner", "scenes"}));
+    EXPECT_EQ(listAreas(), (std::vector<std::string>{"arguments", "cocos", "effects", "gltf", "json", "materials",
+                                                     "pipelines", "planner", "scenes"}));
 }
 
 TEST(ErrorRules, EveryErrorHasACause) {
@@ -156,7 +150,7 @@ std::string tableOfCauses() {
 }
 
 TEST(ErrorRules, TheDocumentListsAllCauses) {
-    std::string document = readAll(CREVICE_ERROR_DOCUMENT);
+    std::string document = readText(CREVICE_ERROR_DOCUMENT);
     const std::size_t begin = document.find(kTableBegin), end = document.find(kTableEnd);
     ASSERT_TRUE(begin != std::string::npos && end != std::string::npos && begin < end) << "docs/errors.md";
     const std::size_t first = begin + std::string(kTableBegin).size();

@@ -8,27 +8,13 @@
 #include <optional>
 
 #include "GfxFixture.h"
+#include "tests/ScopedVariable.h"
 
 namespace crevice {
 namespace {
 
+using test::ScopedVariable;
 using testing::HasSubstr;
-
-/// An environment variable for the length of a scope.
-class ScopedVariable {
-public:
-    ScopedVariable(const char* name, const char* value) : name_(name) {
-        if (const char* old = std::getenv(name)) old_ = old;
-        setenv(name, value, 1);
-    }
-    ~ScopedVariable() { old_ ? setenv(name_, old_->c_str(), 1) : unsetenv(name_); }
-    ScopedVariable(const ScopedVariable&) = delete;
-    ScopedVariable& operator=(const ScopedVariable&) = delete;
-
-private:
-    const char* name_;
-    std::optional<std::string> old_;
-};
 
 /// The message and help of the error that making the device throws; empty when it does not.
 std::string failureOf(const DeviceOptions& options) {

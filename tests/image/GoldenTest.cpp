@@ -3,7 +3,6 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <regex>
 #include <string>
 #include <vector>
@@ -13,6 +12,7 @@
 #include "ImageCase.h"
 #include "app/Renderer.h"
 #include "app/commands/ImageDifference.h"
+#include "core/Files.h"
 
 namespace crevice::image {
 namespace {
@@ -23,11 +23,6 @@ constexpr std::uintmax_t kMaxGoldenBytes = 60'000;
 
 bool updating() { return std::getenv("CREVICE_UPDATE_GOLDEN") != nullptr; }
 fs::path driverPath() { return fs::path(CREVICE_IMAGE_DIR) / "golden" / "driver.txt"; }
-
-std::string readText(const fs::path& path) {
-    std::ifstream in(path);
-    return {std::istreambuf_iterator<char>(in), {}};
-}
 
 /// Warnings and errors of a run: there may be none.
 Log collectingLog(std::vector<std::string>& messages) {

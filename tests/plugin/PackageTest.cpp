@@ -1,6 +1,4 @@
 // The installed package: complete, movable, with headers that need nothing but what it brings or asks for.
-#include <algorithm>
-#include <set>
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,6 @@
 // What hostile projects hold: every one of them ends in errors, in bounded time and memory. Bounds are counted, not
 // timed.
 #include <filesystem>
-#include <fstream>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -10,7 +9,6 @@
 #include "SceneTestTools.h"
 #include "cocos/MetaIndex.h"
 #include "cocos/Mtl.h"
-#include "cocos/MtlInstance.h"
 #include "cocos/Rpp.h"
 #include "cocos/SceneImport.h"
 

@@ -3,8 +3,6 @@
 
 #include "cocos/SceneImport.h"
 
-#include <cmath>
-
 #include <gtest/gtest.h>
 
 #include "SceneTestTools.h"

@@ -1,34 +1,21 @@
 // JSON documents: values, their places, limits, and the message for each kind of syntax mistake.
-#include "core/Document.h"
-
 #include <limits>
 
-#include <gtest/gtest.h>
+#include "DocumentTools.h"
 
 namespace crevice {
 namespace {
 
-/// The only problem of a text that must not parse.
+using test::expectExplained;
+using test::expectPlace;
+using test::onlyProblem;
+using test::SyntaxCase;
+
 Problem problemOf(const std::string& text, const DocumentLimits& limits = {}) {
-    try {
-        const Value value = parseJson(text, "doc.json", limits);
-        ADD_FAILURE() << "accepted: " << text << " as " << value.toJson(-1);
-    } catch (const Error& error) {
-        EXPECT_EQ(error.problems().size(), 1u);
-        EXPECT_FALSE(error.problems().front().help.empty()) << error.what();
-        return error.problems().front();
-    }
-    return {};
+    return onlyProblem(text, [&](const std::string& t) { return parseJson(t, "doc.json", limits); });
 }
 
 std::string compact(const std::string& text) { return parseJson(text, "doc.json").toJson(-1); }
-
-void expectPlace(const SourceLoc& where, int line, int column, int length) {
-    EXPECT_EQ(where.file, "doc.json");
-    EXPECT_EQ(where.line, line);
-    EXPECT_EQ(where.column, column);
-    EXPECT_EQ(where.length, length);
-}
 
 TEST(Json, ReadsEveryKindOfValue) {
     const std::string text = R"({"n":null,"t":true,"f":false,"i":-3,"r":2.5,"s":"x","a":[1,[],{}],"o":{"k":0}})";
@@ -64,6 +51,7 @@ TEST(Json, DecodesEscapes) { EXPECT_EQ(parseJson(R"("\u00e9\ud83d\ude00\/")", "f
 TEST(Json, EveryValueAndKeyHasItsPlace) {
     const Value root =
         parseJson("{\n  \"name\": \"x\",\n  \"list\": [1, true ,{}], // comment\n \"é\": null}", "doc.json");
+    EXPECT_EQ(root.where().file, "doc.json");
     expectPlace(root.where(), 1, 1, 1);
     expectPlace(root.members()[0].keyLoc, 2, 3, 6);
     expectPlace(root.find("name")->where(), 2, 11, 3);
@@ -96,21 +84,9 @@ TEST(Json, EqualKeysInDifferentObjectsAreNoDuplicates) {
     EXPECT_NO_THROW(parseJson(R"({"a": {"a": 1}, "b": {"a": 2}})", "f"));
 }
 
-struct SyntaxCase {
-    const char* text;
-    int line;
-    int column;
-    const char* message;
-};
-
 class JsonSyntax : public testing::TestWithParam<SyntaxCase> {};
 
-TEST_P(JsonSyntax, IsExplained) {
-    const Problem problem = problemOf(GetParam().text);
-    EXPECT_EQ(problem.message, GetParam().message);
-    EXPECT_EQ(problem.where.line, GetParam().line) << GetParam().text;
-    EXPECT_EQ(problem.where.column, GetParam().column) << GetParam().text;
-}
+TEST_P(JsonSyntax, IsExplained) { expectExplained(problemOf(GetParam().text), GetParam()); }
 
 INSTANTIATE_TEST_SUITE_P(
     Mistakes, JsonSyntax,

@@ -1,7 +1,6 @@
 // Messages as the user reads them: place, source line, caret, remarks, help.
 #include "core/Error.h"
 
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 

@@ -1,7 +1,6 @@
 // What the tests of programs share: shipped pipelines and documents of a test, declared and compiled without a GPU.
 #pragma once
 
-#include <filesystem>
 #include <map>
 #include <memory>
 #include <string>

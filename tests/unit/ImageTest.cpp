@@ -2,7 +2,6 @@
 #include "core/Image.h"
 
 #include <cstring>
-#include <fstream>
 #include <limits>
 
 #include <gtest/gtest.h>

@@ -8,8 +8,6 @@
 #include <cstring>
 #include <random>
 
-#include "flow/FrameData.h"
-
 namespace crevice {
 namespace {
 

@@ -1,9 +1,6 @@
 // Scene documents: what they become, and where their mistakes are pointed out.
 #include "scene/SceneAsset.h"
 
-#include <algorithm>
-#include <cmath>
-
 #include "SceneTestTools.h"
 
 namespace crevice {

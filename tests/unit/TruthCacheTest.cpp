@@ -103,28 +103,53 @@ TEST_F(TruthCache, AFolderThatCannotBeWrittenIsNoError) {
     EXPECT_FALSE(fs::exists(*settings_.cache));
 }
 
-TEST_F(TruthCache, WhatRaysNoticeIsAnotherKey) {
-    SceneTexture texture;
-    texture.image = Image(2, 1, Format::RGBA8);
-    scene_.textures.push_back(texture);
-    SceneMaterial mask;
-    mask.alphaMode = AlphaMode::Mask;
-    mask.baseColorMap.texture = 0;
-    scene_.materials.push_back(mask);
-    addQuad(scene_, {-1, 1, 1}, {1, 1, 1}, {1, 1, -1}, {-1, 1, -1}, 1);
-    struct Input {
-        Scene scene;
-        Camera camera;
-        glm::uvec2 size{20, 12};
-        AmbientSettings settings;
-    };
-    const Input plain{scene_, camera_, {20, 12}, settings_};
-    const auto keyOf = [](const Input& input) {
-        return truthKey(input.scene, input.camera, input.size, input.settings);
-    };
-    Falloff steeper = *findFalloff("linear");
-    steeper.power = 2;
-    const std::map<std::string, std::function<void(Input&)>> changes = {
+TEST_F(TruthCache, AMovedTriangleIsTraced) {
+    const AmbientMap first = trace();
+    scene_.instances[1].world[3].x = 0.3f;
+    const AmbientMap second = trace();
+    EXPECT_FALSE(second.fromCache);
+    EXPECT_NE(first.layers[0].openness, second.layers[0].openness);
+    EXPECT_EQ(files().size(), 2u);
+}
+
+TEST_F(TruthCache, HeightfieldsAreKept) {
+    const AmbientMap seen = trace();
+    fs::remove_all(folder_);
+    fs::create_directories(folder_);
+    const HeightfieldInput input{seen.size, camera_, seen.viewDepth, seen.normal};
+    int reports = 0;
+    const HeightfieldSettings settings{
+        .radius = 1, .slices = 4, .threads = 1, .progress = [&](float) { ++reports; }, .cache = folder_};
+    const std::vector<float> first = traceHeightfield(input, settings);
+    EXPECT_EQ(files().size(), 1u);
+    EXPECT_GT(std::exchange(reports, 0), 0);
+    EXPECT_EQ(traceHeightfield(input, settings), first);
+    EXPECT_EQ(reports, 0) << "it was traced again";
+}
+
+/// Everything that decides a map.
+struct Input {
+    Scene scene;
+    Camera camera;
+    glm::uvec2 size{20, 12};
+    AmbientSettings settings;
+
+    std::string key() const { return truthKey(scene, camera, size, settings); }
+};
+using Changes = std::map<std::string, std::function<void(Input&)>>;
+
+const Falloff& steeperFalloff() {
+    static const Falloff steeper = [] {
+        Falloff falloff = *findFalloff("linear");
+        falloff.power = 2;
+        return falloff;
+    }();
+    return steeper;
+}
+
+/// Each changes what a ray could meet or how it counts; mesh 2 is cut out by a texture's alpha.
+Changes noticedChanges() {
+    return {
         {"position", [](Input& i) { i.scene.meshes[1].vertices[2].position.y += 1e-4f; }},
         {"normal",
          [](Input& i) {
@@ -154,20 +179,16 @@ TEST_F(TruthCache, WhatRaysNoticeIsAnotherKey) {
          }},
         {"radius", [](Input& i) { i.settings.terms[0].radius = 1.01f; }},
         {"falloff", [](Input& i) { i.settings.terms[0].falloff = findFalloff("linear"); }},
-        {"changed falloff", [&](Input& i) { i.settings.terms[0].falloff = &steeper; }},
+        {"changed falloff", [](Input& i) { i.settings.terms[0].falloff = &steeperFalloff(); }},
         {"directions", [](Input& i) { i.settings.terms[0].falloff = findFalloff("matched:songjihu"); }},
         {"terms", [](Input& i) { i.settings.terms.pop_back(); }},
         {"samples", [](Input& i) { i.settings.samples = 32; }},
         {"seed", [](Input& i) { i.settings.seed = 2; }},
     };
-    std::map<std::string, std::string> names = {{keyOf(plain), "nothing"}};
-    for (const auto& [name, change] : changes) {
-        Input changed = plain;
-        change(changed);
-        const auto [known, isNew] = names.emplace(keyOf(changed), name);
-        EXPECT_TRUE(isNew) << "'" << name << "' has the key of '" << known->second << "'";
-    }
-    const std::map<std::string, std::function<void(Input&)>> irrelevant = {
+}
+
+Changes unnoticedChanges() {
+    return {
         {"names", [](Input& i) { i.scene.name = i.scene.meshes[0].name = i.scene.materials[0].name = "other"; }},
         {"colour",
          [](Input& i) {
@@ -178,72 +199,72 @@ TEST_F(TruthCache, WhatRaysNoticeIsAnotherKey) {
         {"uv of opaque", [](Input& i) { i.scene.meshes[0].vertices[0].uv0.x = 0.5f; }},
         {"unused", [](Input& i) { i.scene.materials.emplace_back(); }},
     };
-    for (const auto& [name, change] : irrelevant) {
+}
+
+class TruthKey : public TruthCache {
+protected:
+    /// The fixture's scene, and a square that a texture cuts out.
+    Input input() {
+        SceneTexture texture;
+        texture.image = Image(2, 1, Format::RGBA8);
+        scene_.textures.push_back(texture);
+        SceneMaterial mask;
+        mask.alphaMode = AlphaMode::Mask;
+        mask.baseColorMap.texture = 0;
+        scene_.materials.push_back(mask);
+        addQuad(scene_, {-1, 1, 1}, {1, 1, 1}, {1, 1, -1}, {-1, 1, -1}, 1);
+        return {scene_, camera_, {20, 12}, settings_};
+    }
+};
+
+TEST_F(TruthKey, IsAnotherForWhatRaysNotice) {
+    const Input plain = input();
+    std::map<std::string, std::string> names = {{plain.key(), "nothing"}};
+    for (const auto& [name, change] : noticedChanges()) {
         Input changed = plain;
         change(changed);
-        EXPECT_EQ(keyOf(changed), keyOf(plain)) << name;
+        const auto [known, isNew] = names.emplace(changed.key(), name);
+        EXPECT_TRUE(isNew) << "'" << name << "' has the key of '" << known->second << "'";
     }
 }
 
-TEST_F(TruthCache, AMovedTriangleIsTraced) {
-    const AmbientMap first = trace();
-    scene_.instances[1].world[3].x = 0.3f;
-    const AmbientMap second = trace();
-    EXPECT_FALSE(second.fromCache);
-    EXPECT_NE(first.layers[0].openness, second.layers[0].openness);
-    EXPECT_EQ(files().size(), 2u);
+TEST_F(TruthKey, IsTheSameForWhatRaysCannotNotice) {
+    const Input plain = input();
+    for (const auto& [name, change] : unnoticedChanges()) {
+        Input changed = plain;
+        change(changed);
+        EXPECT_EQ(changed.key(), plain.key()) << name;
+    }
 }
 
-TEST_F(TruthCache, Heightfields) {
+TEST_F(TruthKey, OfAHeightfieldIsAnotherForEachInputAndSetting) {
     const AmbientMap seen = trace();
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
-    HeightfieldInput input{seen.size, camera_, seen.viewDepth, seen.normal};
-    int reports = 0;
-    HeightfieldSettings settings{
-        .radius = 1, .slices = 4, .threads = 1, .progress = [&](float) { ++reports; }, .cache = folder_};
-    const std::vector<float> first = traceHeightfield(input, settings);
-    EXPECT_EQ(files().size(), 1u);
-    EXPECT_GT(std::exchange(reports, 0), 0);
-    EXPECT_EQ(traceHeightfield(input, settings), first);
-    EXPECT_EQ(reports, 0) << "it was traced again";
     std::vector<float> moved = seen.viewDepth;
     moved[7] *= 1.001f;
     std::vector<std::uint8_t> mask(moved.size(), 1);
     mask[3] = 0;
     std::vector<glm::vec3> tilted = seen.normal;
     tilted[9] = {0, 0, 1};
-    std::set<std::string> keys = {heightfieldKey(input, settings)};
-    const auto expectNew = [&](const HeightfieldInput& other, const HeightfieldSettings& asked, const char* what) {
-        EXPECT_TRUE(keys.insert(heightfieldKey(other, asked)).second) << what;
+    using Change = std::function<void(HeightfieldInput&, HeightfieldSettings&)>;
+    const std::map<std::string, Change> changes = {
+        {"nothing", [](HeightfieldInput&, HeightfieldSettings&) {}},
+        {"depth", [&](HeightfieldInput& i, HeightfieldSettings&) { i.viewDepth = moved; }},
+        {"normal", [&](HeightfieldInput& i, HeightfieldSettings&) { i.normal = tilted; }},
+        {"mask", [&](HeightfieldInput& i, HeightfieldSettings&) { i.isCounted = mask; }},
+        {"camera", [](HeightfieldInput& i, HeightfieldSettings&) { i.camera.fovY = 1; }},
+        {"radius", [](HeightfieldInput&, HeightfieldSettings& s) { s.radius = 2; }},
+        {"thickness", [](HeightfieldInput&, HeightfieldSettings& s) { s.thickness = 1; }},
+        {"steps", [](HeightfieldInput&, HeightfieldSettings& s) { s.steps = 7; }},
+        {"slices", [](HeightfieldInput&, HeightfieldSettings& s) { s.slices = 7; }},
+        {"seed", [](HeightfieldInput&, HeightfieldSettings& s) { s.seed = 7; }},
     };
-    HeightfieldInput other = input;
-    other.viewDepth = moved;
-    expectNew(other, settings, "depth");
-    other = input;
-    other.normal = tilted;
-    expectNew(other, settings, "normal");
-    other = input;
-    other.isCounted = mask;
-    expectNew(other, settings, "mask");
-    other = input;
-    other.camera.fovY = 1;
-    expectNew(other, settings, "camera");
-    HeightfieldSettings asked = settings;
-    asked.radius = 2;
-    expectNew(input, asked, "radius");
-    asked = settings;
-    asked.thickness = 1;
-    expectNew(input, asked, "thickness");
-    asked = settings;
-    asked.steps = 7;
-    expectNew(input, asked, "steps");
-    asked = settings;
-    asked.slices = 7;
-    expectNew(input, asked, "slices");
-    asked = settings;
-    asked.seed = 7;
-    expectNew(input, asked, "seed");
+    std::set<std::string> keys;
+    for (const auto& [name, change] : changes) {
+        HeightfieldInput input{seen.size, camera_, seen.viewDepth, seen.normal};
+        HeightfieldSettings settings{.radius = 1, .slices = 4};
+        change(input, settings);
+        EXPECT_TRUE(keys.insert(heightfieldKey(input, settings)).second) << name;
+    }
 }
 
 }  // namespace

@@ -1,29 +1,18 @@
 // YAML documents: types of scalars, anchors and merge keys, places, limits and messages.
-#include <gtest/gtest.h>
-
-#include "core/Document.h"
+#include "DocumentTools.h"
 
 namespace crevice {
 namespace {
 
+using test::expectExplained;
+using test::expectPlace;
+using test::onlyProblem;
+using test::SyntaxCase;
+
 std::string compact(const std::string& text) { return parseYaml(text, "doc.yaml").toJson(-1); }
 
 Problem problemOf(const std::string& text, const DocumentLimits& limits = {}) {
-    try {
-        const Value value = parseYaml(text, "doc.yaml", 1, limits);
-        ADD_FAILURE() << "accepted: " << text << " as " << value.toJson(-1);
-    } catch (const Error& error) {
-        EXPECT_EQ(error.problems().size(), 1u);
-        EXPECT_FALSE(error.problems().front().help.empty()) << error.what();
-        return error.problems().front();
-    }
-    return {};
-}
-
-void expectPlace(const SourceLoc& where, int line, int column, int length) {
-    EXPECT_EQ(where.line, line);
-    EXPECT_EQ(where.column, column);
-    EXPECT_EQ(where.length, length);
+    return onlyProblem(text, [&](const std::string& t) { return parseYaml(t, "doc.yaml", 1, limits); });
 }
 
 TEST(Yaml, ScalarsFollowYaml12) {
@@ -99,21 +88,9 @@ TEST(Yaml, DuplicateKeysShowBothPlaces) {
     expectPlace(problem.remarks[0].where, 1, 1, 1);
 }
 
-struct SyntaxCase {
-    const char* text;
-    int line;
-    int column;
-    const char* message;
-};
-
 class YamlSyntax : public testing::TestWithParam<SyntaxCase> {};
 
-TEST_P(YamlSyntax, IsExplained) {
-    const Problem problem = problemOf(GetParam().text);
-    EXPECT_EQ(problem.message, GetParam().message);
-    EXPECT_EQ(problem.where.line, GetParam().line) << GetParam().text;
-    EXPECT_EQ(problem.where.column, GetParam().column) << GetParam().text;
-}
+TEST_P(YamlSyntax, IsExplained) { expectExplained(problemOf(GetParam().text), GetParam()); }
 
 INSTANTIATE_TEST_SUITE_P(
     Mistakes, YamlSyntax,
