@@ -71,7 +71,6 @@ public:
     void begin();
     /// Ends, submits and waits. Throws RenderError, in words when the device is lost.
     void submitAndWait();
-    bool isRecording() const { return recording_; }
 
     // Order and visibility
     void barrier(const GpuTexture& texture, TextureState from, TextureState to);

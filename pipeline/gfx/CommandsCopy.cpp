@@ -4,7 +4,6 @@
 #include "gfx/Barriers.h"
 #include "gfx/Commands.h"
 #include "gfx/Device.h"
-#include "gfx/StateWords.h"
 
 namespace crevice {
 

@@ -127,7 +127,6 @@ void Device::createDevice() {
 
     const EnabledFeatures enabled(physical_);
     features_ = enabled.core.features;
-    robustImageAccess_ = enabled.vulkan13.robustImageAccess == VK_TRUE;
 
     const float priority = 1;
     auto queueInfo = vkStruct<VkDeviceQueueCreateInfo>(VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO);

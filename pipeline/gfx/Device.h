@@ -42,7 +42,7 @@ public:
     Device(const Device&) = delete;
     Device& operator=(const Device&) = delete;
 
-    /// All drivers, usable or not, best first is not implied: the order is the loader's and indices refer to it.
+    /// All drivers, usable or not, in the loader's order, not the best first: indices of devices count in it.
     static std::vector<DeviceInfo> listDevices();
 
     const std::string& deviceName() const { return info_.name; }
@@ -50,7 +50,6 @@ public:
     const DeviceInfo& info() const { return info_; }
     const VkPhysicalDeviceLimits& limits() const { return limits_; }
     const VkPhysicalDeviceFeatures& features() const { return features_; }  ///< The enabled ones.
-    bool hasRobustImageAccess() const { return robustImageAccess_; }
     /// Nanoseconds per timestamp tick; 0 = the queue has no timestamps.
     double timestampPeriod() const { return timestampPeriod_; }
     std::uint32_t timestampBits() const { return timestampBits_; }
@@ -100,7 +99,6 @@ private:
     int submissions_ = 0;
     bool validates_ = false;
     bool hasDebugUtils_ = false;
-    bool robustImageAccess_ = false;
     double timestampPeriod_ = 0;
     std::uint32_t timestampBits_ = 0;
     DeviceInfo info_;

@@ -35,26 +35,6 @@ const PipelineLayout& PipelineLayoutCache::get(std::span<const SetLayout* const>
     return *layouts_.emplace_back(std::move(layout));
 }
 
-std::uint32_t vertexFormatBytes(VertexFormat format) {
-    switch (format) {
-        case VertexFormat::Float:
-            return 4;
-        case VertexFormat::Float2:
-            return 8;
-        case VertexFormat::Float3:
-            return 12;
-        case VertexFormat::Float4:
-            return 16;
-        case VertexFormat::UByte4Norm:
-            return 4;
-        case VertexFormat::UInt4:
-            return 16;
-        case VertexFormat::UInt:
-            return 4;
-    }
-    return 0;
-}
-
 /// Everything a pipeline depends on, by value. Layouts are compared by address: their cache keeps them unique.
 struct PipelineCache::Key {
     std::vector<std::uint32_t> vertex, fragment, compute;

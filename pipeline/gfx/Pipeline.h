@@ -50,7 +50,6 @@ private:
 };
 
 enum class VertexFormat : std::uint8_t { Float, Float2, Float3, Float4, UByte4Norm, UInt, UInt4 };
-std::uint32_t vertexFormatBytes(VertexFormat format);
 
 struct VertexBinding {
     std::uint32_t binding = 0;

@@ -139,61 +139,102 @@ void checkStates(const Device& device, const GraphicsPipelineDesc& desc) {
     }
 }
 
-[[noreturn]] void throwRefused(const Device& device, const std::string& name, VkResult result) {
-    throw RenderError(
-        fmt::format("device '{}' refused pipeline '{}': {}", device.deviceName(), name, vkResultName(result)),
-        "run again with --validate to see why");
+VkPipelineRenderingCreateInfo renderingInfo(const GraphicsPipelineDesc& desc, const std::vector<VkFormat>& colors) {
+    auto info = vkStruct<VkPipelineRenderingCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_RENDERING_CREATE_INFO);
+    info.colorAttachmentCount = static_cast<std::uint32_t>(colors.size());
+    info.pColorAttachmentFormats = colors.data();
+    info.depthAttachmentFormat = desc.depthFormat ? crevice::toVk(*desc.depthFormat) : VK_FORMAT_UNDEFINED;
+    if (desc.stencil) info.depthAttachmentFormat = info.stencilAttachmentFormat = VK_FORMAT_D32_SFLOAT_S8_UINT;
+    return info;
+}
+
+VkPipelineInputAssemblyStateCreateInfo assemblyInfo(const RenderState& state) {
+    auto info =
+        vkStruct<VkPipelineInputAssemblyStateCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO);
+    info.topology = crevice::toVk(state.topology);
+    return info;
+}
+
+/// One viewport and scissor rectangle, which commands set.
+VkPipelineViewportStateCreateInfo viewportInfo() {
+    auto info = vkStruct<VkPipelineViewportStateCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_VIEWPORT_STATE_CREATE_INFO);
+    info.viewportCount = 1;
+    info.scissorCount = 1;
+    return info;
+}
+
+constexpr std::array kDynamicStates = {VK_DYNAMIC_STATE_VIEWPORT, VK_DYNAMIC_STATE_SCISSOR};
+
+VkPipelineDynamicStateCreateInfo dynamicInfo() {
+    auto info = vkStruct<VkPipelineDynamicStateCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_DYNAMIC_STATE_CREATE_INFO);
+    info.dynamicStateCount = static_cast<std::uint32_t>(kDynamicStates.size());
+    info.pDynamicStates = kDynamicStates.data();
+    return info;
+}
+
+VkPipelineMultisampleStateCreateInfo sampleInfo() {
+    auto info =
+        vkStruct<VkPipelineMultisampleStateCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_MULTISAMPLE_STATE_CREATE_INFO);
+    info.rasterizationSamples = VK_SAMPLE_COUNT_1_BIT;
+    return info;
+}
+
+VkPipelineColorBlendStateCreateInfo blendInfo(const std::vector<VkPipelineColorBlendAttachmentState>& attachments) {
+    auto info = vkStruct<VkPipelineColorBlendStateCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO);
+    info.attachmentCount = static_cast<std::uint32_t>(attachments.size());
+    info.pAttachments = attachments.data();
+    return info;
+}
+
+/// Shader modules and the stages that refer to them.
+struct ShaderStages {
+    std::vector<Unique<VkShaderModule>> modules;
+    std::vector<VkPipelineShaderStageCreateInfo> infos;
+
+    void add(Device& device, VkShaderStageFlagBits stage, std::span<const std::uint32_t> code,
+             const std::string& name) {
+        modules.push_back(makeModule(device, code, name));
+        infos.push_back(stageInfo(stage, modules.back().get()));
+    }
+};
+
+/// What the driver made; a refusal is explained as far as it can be.
+Unique<VkPipeline> ownPipeline(Device& device, const std::string& name, VkResult result, VkPipeline pipeline) {
+    if (result != VK_SUCCESS) {
+        throw RenderError(
+            fmt::format("device '{}' refused pipeline '{}': {}", device.deviceName(), name, vkResultName(result)),
+            "run again with --validate to see why");
+    }
+    device.setName(VK_OBJECT_TYPE_PIPELINE, pipeline, name);
+    return own<vkDestroyPipeline, ObjectKind::Pipeline>(device, pipeline);
 }
 
 }  // namespace
 
 Unique<VkPipeline> buildGraphicsPipeline(Device& device, const GraphicsPipelineDesc& desc) {
     checkStates(device, desc);
-    std::vector<Unique<VkShaderModule>> modules;
-    std::vector<VkPipelineShaderStageCreateInfo> stages;
-    modules.push_back(makeModule(device, desc.vertex, desc.name + " vertex"));
-    stages.push_back(stageInfo(VK_SHADER_STAGE_VERTEX_BIT, modules.back().get()));
-    if (!desc.fragment.empty()) {
-        modules.push_back(makeModule(device, desc.fragment, desc.name + " fragment"));
-        stages.push_back(stageInfo(VK_SHADER_STAGE_FRAGMENT_BIT, modules.back().get()));
-    }
-
+    ShaderStages stages;
+    stages.add(device, VK_SHADER_STAGE_VERTEX_BIT, desc.vertex, desc.name + " vertex");
+    if (!desc.fragment.empty())
+        stages.add(device, VK_SHADER_STAGE_FRAGMENT_BIT, desc.fragment, desc.name + " fragment");
     std::vector<VkFormat> colorFormats;
     for (const Format format : desc.colorFormats) colorFormats.push_back(crevice::toVk(format));
-    auto rendering = vkStruct<VkPipelineRenderingCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_RENDERING_CREATE_INFO);
-    rendering.colorAttachmentCount = static_cast<std::uint32_t>(colorFormats.size());
-    rendering.pColorAttachmentFormats = colorFormats.data();
-    rendering.depthAttachmentFormat = desc.depthFormat ? crevice::toVk(*desc.depthFormat) : VK_FORMAT_UNDEFINED;
-    if (desc.stencil)
-        rendering.depthAttachmentFormat = rendering.stencilAttachmentFormat = VK_FORMAT_D32_SFLOAT_S8_UINT;
-
+    const auto rendering = renderingInfo(desc, colorFormats);
     const VertexInput input(desc);
     const auto vertexInput = input.info();
-    auto assembly =
-        vkStruct<VkPipelineInputAssemblyStateCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO);
-    assembly.topology = crevice::toVk(desc.state.topology);
-    auto viewport = vkStruct<VkPipelineViewportStateCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_VIEWPORT_STATE_CREATE_INFO);
-    viewport.viewportCount = 1;
-    viewport.scissorCount = 1;
+    const auto assembly = assemblyInfo(desc.state);
+    const auto viewport = viewportInfo();
     const auto rasterization = rasterizationInfo(desc.state);
-    auto samples =
-        vkStruct<VkPipelineMultisampleStateCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_MULTISAMPLE_STATE_CREATE_INFO);
-    samples.rasterizationSamples = VK_SAMPLE_COUNT_1_BIT;
+    const auto samples = sampleInfo();
     const auto depth = depthInfo(desc);
     const auto attachments = blendAttachments(desc);
-    auto blend =
-        vkStruct<VkPipelineColorBlendStateCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO);
-    blend.attachmentCount = static_cast<std::uint32_t>(attachments.size());
-    blend.pAttachments = attachments.data();
-    constexpr std::array kDynamic = {VK_DYNAMIC_STATE_VIEWPORT, VK_DYNAMIC_STATE_SCISSOR};
-    auto dynamic = vkStruct<VkPipelineDynamicStateCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_DYNAMIC_STATE_CREATE_INFO);
-    dynamic.dynamicStateCount = static_cast<std::uint32_t>(kDynamic.size());
-    dynamic.pDynamicStates = kDynamic.data();
+    const auto blend = blendInfo(attachments);
+    const auto dynamic = dynamicInfo();
 
     auto info = vkStruct<VkGraphicsPipelineCreateInfo>(VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_CREATE_INFO);
     info.pNext = &rendering;
-    info.stageCount = static_cast<std::uint32_t>(stages.size());
-    info.pStages = stages.data();
+    info.stageCount = static_cast<std::uint32_t>(stages.infos.size());
+    info.pStages = stages.infos.data();
     info.pVertexInputState = &vertexInput;
     info.pInputAssemblyState = &assembly;
     info.pViewportState = &viewport;
@@ -206,9 +247,7 @@ Unique<VkPipeline> buildGraphicsPipeline(Device& device, const GraphicsPipelineD
     VkPipeline pipeline = VK_NULL_HANDLE;
     const VkResult result =
         vkCreateGraphicsPipelines(device.handle(), device.pipelineCache(), 1, &info, nullptr, &pipeline);
-    if (result != VK_SUCCESS) throwRefused(device, desc.name, result);
-    device.setName(VK_OBJECT_TYPE_PIPELINE, pipeline, desc.name);
-    return own<vkDestroyPipeline, ObjectKind::Pipeline>(device, pipeline);
+    return ownPipeline(device, desc.name, result, pipeline);
 }
 
 Unique<VkPipeline> buildComputePipeline(Device& device, const ComputePipelineDesc& desc) {
@@ -219,9 +258,7 @@ Unique<VkPipeline> buildComputePipeline(Device& device, const ComputePipelineDes
     VkPipeline pipeline = VK_NULL_HANDLE;
     const VkResult result =
         vkCreateComputePipelines(device.handle(), device.pipelineCache(), 1, &info, nullptr, &pipeline);
-    if (result != VK_SUCCESS) throwRefused(device, desc.name, result);
-    device.setName(VK_OBJECT_TYPE_PIPELINE, pipeline, desc.name);
-    return own<vkDestroyPipeline, ObjectKind::Pipeline>(device, pipeline);
+    return ownPipeline(device, desc.name, result, pipeline);
 }
 
 }  // namespace crevice

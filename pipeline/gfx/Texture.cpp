@@ -66,13 +66,6 @@ void checkSupport(const Device& device, const TextureDesc& desc) {
 
 }  // namespace
 
-const char* textureStateName(TextureState state) {
-    static constexpr std::array kNames = {"undefined",       "color",           "depth",
-                                          "depth-read-only", "sampled",         "storage-read",
-                                          "storage-write",   "transfer-source", "transfer-dest"};
-    return kNames[static_cast<std::size_t>(state)];
-}
-
 VkImageLayout layoutOf(TextureState state) {
     switch (state) {
         case TextureState::Undefined:

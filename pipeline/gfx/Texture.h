@@ -43,7 +43,6 @@ enum class TextureState : std::uint8_t {
     TransferSource,
     TransferDest
 };
-const char* textureStateName(TextureState state);
 VkImageLayout layoutOf(TextureState state);
 
 struct TextureDesc {
