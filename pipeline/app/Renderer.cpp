@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cassert>
-#include <cmath>
 
 #include "flow/FrameData.h"
 #include "scene/EnvironmentCube.h"

@@ -1,7 +1,6 @@
 // GLSL's type names with what Cocos' metadata says of them: numbers of its `Type` and `Format` enums, sizes.
 #pragma once
 
-#include <cstdint>
 #include <optional>
 #include <string_view>
 

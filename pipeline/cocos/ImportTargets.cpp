@@ -36,11 +36,11 @@ std::string formatName(std::int64_t gfxFormat) {
     return {};
 }
 
-ImportTargets::ImportTargets(bool v33, bool deferred) : litName_(v33 ? "cc_lighting_resultMap" : "lightingResult") {
+ImportTargets::ImportTargets(bool v33, bool deferred) {
     if (deferred) addGbuffer(v33);
     add("depth", "D32F", "");
     list_.find("depth")->set("clear", Value::makeNumber(1));
-    if (deferred) add(litName_, "RGBA16F", "the lit picture");
+    if (deferred) add(v33 ? "cc_lighting_resultMap" : "lightingResult", "RGBA16F", "the lit picture");
     add("finalColor", "RGBA8", "the picture");
 }
 

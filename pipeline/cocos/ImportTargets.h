@@ -2,7 +2,6 @@
 #pragma once
 
 #include <string>
-#include <vector>
 
 #include "cocos/Project.h"
 #include "cocos/Rpp.h"
@@ -16,7 +15,6 @@ public:
     /// expect them.
     ImportTargets(bool v33, bool deferred);
 
-    const std::string& litName() const { return litName_; }
     bool has(const std::string& name) const { return list_.find(name) != nullptr; }
     /// An image of the frame's size; nothing when the name is taken.
     void add(const std::string& name, const std::string& format, const std::string& help);
@@ -34,7 +32,6 @@ private:
                   const std::string& help);
 
     Value list_ = Value::makeObject();
-    std::string litName_;
 };
 
 /// Our name for a number of the engine's Format enum (3.4 and later), "" for those we do not have.

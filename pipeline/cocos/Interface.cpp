@@ -2,7 +2,6 @@
 #include "cocos/Interface.h"
 
 #include <algorithm>
-#include <charconv>
 #include <limits>
 #include <map>
 
@@ -28,6 +27,12 @@ bool isQualifier(std::string_view word) {
         "readonly", "writeonly", "const",         "in",       "out",      "uniform",  "buffer"};
     return std::find(std::begin(kWords), std::end(kWords), word) != std::end(kWords);
 }
+
+/// One of the names that a statement declares.
+struct Declarator {
+    std::size_t token;
+    ArraySize size;
+};
 
 class InterfaceReader {
 public:
@@ -77,6 +82,8 @@ private:
     void readStruct(const GlslStatement& statement);
     void readBlock(const GlslStatement& statement);
     void readVariables(const GlslStatement& statement);
+    std::vector<Declarator> readDeclarators(std::size_t at, std::size_t end, const ArraySize& typeSize,
+                                            InterfaceStatement& where) const;
     InterfaceStatement readQualifiers(const GlslStatement& statement, std::size_t& at, std::size_t end,
                                       InterfaceDeclaration& declaration) const;
     void readLayout(std::size_t begin, std::size_t end, InterfaceStatement& where,
@@ -292,6 +299,26 @@ void InterfaceReader::readBlock(const GlslStatement& statement) {
     if (storage == "uniform") checkBlock(result_.declarations.back(), problems_);
 }
 
+/// `v_uv, v_colors[2]` from `at` to `end`: what each declares, and its text into `where`.
+std::vector<Declarator> InterfaceReader::readDeclarators(std::size_t at, std::size_t end, const ArraySize& typeSize,
+                                                         InterfaceStatement& where) const {
+    std::vector<Declarator> names;
+    where.firstName = offset(skipDirectives(at, end));
+    for (at = skipDirectives(at, end); at < end; at = skipDirectives(at + 1, end)) {
+        Declarator declarator{at, {}};
+        const std::size_t from = offset(at);
+        declarator.size = readSize(++at, end);
+        const std::size_t to = offset(at - 1) + tokens_[at - 1].text.size();
+        if (!declarator.size.array) declarator.size = typeSize;
+        if (tokens_[declarator.token].isName()) {
+            names.push_back(declarator);
+            where.declarators.push_back(stage_.flat.text.substr(from, to - from));
+        }
+        while (at < end && tokens_[at].text != ",") ++at;
+    }
+    return names;
+}
+
 void InterfaceReader::readVariables(const GlslStatement& statement) {
     const std::string_view storage = tokens_[statement.storage].text;
     InterfaceDeclaration common;
@@ -318,27 +345,7 @@ void InterfaceReader::readVariables(const GlslStatement& statement) {
         for (std::size_t i = statement.begin; i < at; ++i)
             if (tokens_[i].text == "flat") where.flat = false;
     }
-    struct Declarator {
-        std::size_t token;
-        ArraySize size;
-    };
-    std::vector<Declarator> names;
-    where.firstName = offset(skipDirectives(at, statement.end));
-    while (at < statement.end) {
-        at = skipDirectives(at, statement.end);
-        if (at >= statement.end) break;
-        Declarator declarator{at, {}};
-        const std::size_t from = offset(at);
-        declarator.size = readSize(++at, statement.end);
-        const std::size_t to = offset(at - 1) + tokens_[at - 1].text.size();
-        if (!declarator.size.array) declarator.size = typeSize;
-        if (tokens_[declarator.token].isName()) {
-            names.push_back(declarator);
-            where.declarators.push_back(stage_.flat.text.substr(from, to - from));
-        }
-        while (at < statement.end && tokens_[at].text != ",") ++at;
-        ++at;
-    }
+    const std::vector<Declarator> names = readDeclarators(at, statement.end, typeSize, where);
     where.end = offset(statement.end) + 1;
     const auto marks = takeMarks(tokens_[statement.storage].line);
     result_.statements.push_back(std::move(where));

@@ -2,7 +2,6 @@
 #include "cocos/MtlInstance.h"
 
 #include <algorithm>
-#include <cstdint>
 
 #include <fmt/format.h>
 

@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 
 #include "cocos/RppDescs.h"
-#include "core/Text.h"
 
 namespace crevice::cocos {
 namespace {

@@ -2,7 +2,6 @@
 #include "cocos/SceneGlobals.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "cocos/SceneComponents.h"
 

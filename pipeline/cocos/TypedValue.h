@@ -17,7 +17,6 @@ struct TypedValue {
     std::vector<TypedValue> items{};  ///< List.
     std::string type{};               ///< `__type__` of what was read; of Other, too.
     SourceLoc where{};
-    bool isColor() const { return type == "cc.Color"; }
 };
 
 /// cc.Color, cc.Vec2/3/4, cc.Quat, cc.Mat3/4, cc.Size, cc.Rect, assets, plain values and lists of these. A component

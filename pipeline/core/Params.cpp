@@ -2,7 +2,6 @@
 #include "core/Params.h"
 
 #include <algorithm>
-#include <cmath>
 #include <type_traits>
 
 #include <fmt/format.h>

@@ -1,7 +1,6 @@
 // Pictures by libspng, libjpeg-turbo and libwebp, all of which are made for hostile input; sizes are judged before.
 #include "core/Picture.h"
 
-#include <array>
 #include <cstring>
 #include <memory>
 #include <string_view>

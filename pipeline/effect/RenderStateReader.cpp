@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <array>
-#include <span>
 
 #include "core/StateNames.h"
 #include "core/Text.h"

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "flow/FrameData.h"
 #include "flow/ShadowView.h"

@@ -2,7 +2,6 @@
 // light's depth without its inverse.
 #include "flow/CocosShadow.h"
 
-#include <cstring>
 #include <span>
 
 #include "flow/CocosMacros.h"

@@ -8,7 +8,6 @@
 #include "core/Params.h"
 #include "core/Text.h"
 #include "flow/CocosChecks.h"
-#include "flow/FrameBlocks.h"
 #include "flow/ProgramCompile.h"
 #include "flow/RenderStage.h"
 #include "flow/SceneDefines.h"
@@ -204,7 +203,6 @@ StageUse FrameProgram::useOf(const StageProgram& stage, Problems& problems) cons
             if (use.writes[i].kind == WriteKind::Color && i < targets.size() && targets[i].blend)
                 use.writes[i].blends = true;
         }
-        // A draw whose depth test lets only what nothing covered pass keeps the rest of the picture.
         use.compute = use.compute || !variant.compute.empty();
     };
     for (const DrawProgram& draw : stage.draws) {

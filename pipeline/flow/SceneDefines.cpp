@@ -1,8 +1,6 @@
 // Counts the lights as flow/FrameData.h packs them, and looks for shadows as flow/ShadowView.h does.
 #include "flow/SceneDefines.h"
 
-#include <algorithm>
-
 #include "flow/ShadowView.h"
 
 namespace crevice {

@@ -2,7 +2,6 @@
 #include "flow/ShaderBinding.h"
 
 #include <algorithm>
-#include <cassert>
 
 #include "gfx/Device.h"
 

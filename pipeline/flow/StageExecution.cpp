@@ -3,8 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <cassert>
-
 #include "flow/RenderStage.h"
 #include "flow/VertexInput.h"
 #include "gfx/Device.h"

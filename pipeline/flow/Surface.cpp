@@ -2,7 +2,6 @@
 // UV set.
 #include "flow/Surface.h"
 
-#include <iterator>
 #include <string>
 
 namespace crevice {

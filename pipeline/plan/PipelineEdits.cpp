@@ -1,8 +1,6 @@
 // `edits`: insert, set, replace, remove.
 #include "plan/PipelineEdits.h"
 
-#include <algorithm>
-#include <cassert>
 #include <optional>
 
 #include <fmt/format.h>

@@ -1,8 +1,6 @@
 // What `$name` and conditions stand for once options have their values.
 #include <algorithm>
 #include <cctype>
-#include <cstdlib>
-#include <optional>
 
 #include <fmt/format.h>
 

@@ -1,7 +1,6 @@
 // A depth buffer as a surface between its texels: every texel is a piece of a plane.
 #pragma once
 
-#include <cstdint>
 #include <vector>
 
 #include <glm/glm.hpp>

@@ -1,6 +1,5 @@
 // A template, its script and the plotting library become one file; nothing is loaded from elsewhere.
 #include <filesystem>
-#include <map>
 #include <system_error>
 
 #include <nlohmann/json.hpp>

@@ -1,7 +1,6 @@
 // Renders occlusion maps and takes the processor's time for them.
 #pragma once
 
-#include <functional>
 #include <vector>
 
 #include "app/Renderer.h"

@@ -9,7 +9,6 @@
 #include "app/commands/SceneFiles.h"
 #include "core/Document.h"
 #include "core/Error.h"
-#include "core/Text.h"
 #include "scene/Framing.h"
 #include "scene/SceneAsset.h"
 #include "scene/SceneFields.h"

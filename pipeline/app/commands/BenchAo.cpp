@@ -16,7 +16,6 @@
 #include "app/commands/OutputFiles.h"
 #include "app/commands/TextTable.h"
 #include "core/Error.h"
-#include "core/Text.h"
 
 namespace crevice {
 namespace {

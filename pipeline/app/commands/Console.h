@@ -1,7 +1,6 @@
 // Where the program's words go: results to stdout, messages to stderr, a progress line on terminals only.
 #pragma once
 
-#include <string>
 #include <string_view>
 
 #include "core/Log.h"

@@ -8,7 +8,6 @@
 
 #include "app/commands/Console.h"
 #include "app/commands/EffectBindings.h"
-#include "core/Text.h"
 
 namespace crevice {
 namespace {

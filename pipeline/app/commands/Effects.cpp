@@ -99,26 +99,46 @@ int runShow(const ShowOptions& options) {
     return 0;
 }
 
+/// Words with commas in lines of at most `width` columns, where a word is not longer itself.
+std::vector<std::string> wrapped(const std::vector<std::string>& words, std::size_t width) {
+    std::vector<std::string> lines(1);
+    for (std::size_t i = 0; i < words.size(); ++i) {
+        const std::string word = words[i] + (i + 1 < words.size() ? "," : "");
+        if (!lines.back().empty() && lines.back().size() + 1 + word.size() > width) lines.emplace_back();
+        lines.back() += (lines.back().empty() ? "" : " ") + word;
+    }
+    return lines;
+}
+
+void addOnce(std::vector<std::string>& list, const std::string& word) {
+    if (std::find(list.begin(), list.end(), word) == list.end()) list.push_back(word);
+}
+
+void addEffectRows(TextTable& table, const EffectAsset& effect) {
+    constexpr std::size_t kPhasesWidth = 24, kPropertiesWidth = 56;
+    std::size_t passes = 0;
+    std::vector<std::string> phases, properties;
+    for (const EffectTechnique& technique : effect.techniques) {
+        passes += technique.passes.size();
+        for (const EffectPass& pass : technique.passes) {
+            addOnce(phases, pass.phase);
+            for (const EffectProperty& property : pass.properties) addOnce(properties, property.name);
+        }
+    }
+    std::vector<std::string> left = wrapped(phases, kPhasesWidth), right = wrapped(properties, kPropertiesWidth);
+    const std::size_t lines = std::max(left.size(), right.size());
+    left.resize(lines);
+    right.resize(lines);
+    table.add({effect.name, std::to_string(passes), left[0], right[0]});
+    for (std::size_t i = 1; i < lines; ++i) table.add({"", "", left[i], right[i]});
+}
+
 int runList() {
     const Log log;
     EffectLibrary library(AssetRoots::standard(), log);
     TextTable table;
     table.add({"effect", "passes", "phases", "properties"});
-    for (const std::string& name : library.roots().list(AssetKind::Effect)) {
-        std::size_t passes = 0;
-        std::vector<std::string> phases, properties;
-        const auto addOnce = [](std::vector<std::string>& list, const std::string& word) {
-            if (std::find(list.begin(), list.end(), word) == list.end()) list.push_back(word);
-        };
-        for (const EffectTechnique& technique : library.asset(name).techniques) {
-            passes += technique.passes.size();
-            for (const EffectPass& pass : technique.passes) {
-                addOnce(phases, pass.phase);
-                for (const EffectProperty& property : pass.properties) addOnce(properties, property.name);
-            }
-        }
-        table.add({name, std::to_string(passes), join(phases), join(properties)});
-    }
+    for (const std::string& name : library.roots().list(AssetKind::Effect)) addEffectRows(table, library.asset(name));
     print(table.text());
     return 0;
 }

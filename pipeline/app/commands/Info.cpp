@@ -72,8 +72,9 @@ std::string camerasText(const Scene& scene) {
     if (scene.cameras.empty()) return "none: a view that frames the scene is used";
     std::string text;
     for (std::size_t i = 0; i < scene.cameras.size(); ++i) {
-        text += fmt::format("{}{} '{}'{}", i ? ", " : "", i, scene.cameras[i].name,
-                            scene.cameras[i].orthographic ? " (orthographic)" : "");
+        const Camera& camera = scene.cameras[i];
+        text += fmt::format("{}{}{}{}", i ? ", " : "", i, camera.name.empty() ? "" : " '" + camera.name + "'",
+                            camera.orthographic ? " (orthographic)" : "");
     }
     return text;
 }

@@ -41,4 +41,10 @@ OpenedScene openScene(const SceneFile& file, const PipelineChoice& pipeline, con
     return opened;
 }
 
+Scene openSceneOrSample(const std::string& nameOrPath, const PipelineChoice& pipeline, const Log& log,
+                        const SceneOptions& options) {
+    if (nameOrPath.empty()) return makeSampleScene();
+    return openScene(findScene(pipeline.roots(), nameOrPath), pipeline, log, options).scene;
+}
+
 }  // namespace crevice

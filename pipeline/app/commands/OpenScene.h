@@ -19,4 +19,8 @@ struct OpenedScene {
 OpenedScene openScene(const SceneFile& file, const PipelineChoice& pipeline, const Log& log,
                       const SceneOptions& options = {});
 
+/// The scene of that name or path, or a plain box when the name is empty: whose materials a plan is made for.
+Scene openSceneOrSample(const std::string& nameOrPath, const PipelineChoice& pipeline, const Log& log,
+                        const SceneOptions& options);
+
 }  // namespace crevice

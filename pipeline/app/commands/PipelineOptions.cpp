@@ -10,7 +10,6 @@
 
 #include "app/commands/ArgumentText.h"
 #include "core/Params.h"
-#include "core/Text.h"
 #include "flow/RenderStage.h"
 #include "stages/Builtin.h"
 

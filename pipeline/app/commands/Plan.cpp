@@ -36,10 +36,7 @@ int runPlan(const PlanOptions& options) {
     pipeline.addEffects(library);
     FrameProgram program(pipeline.desc(), pipeline.classes().registry(), library, log,
                          {.width = size.x, .height = size.y});
-    const Scene scene =
-        options.scene.empty()
-            ? makeSampleScene()
-            : openScene(findScene(pipeline.roots(), options.scene), pipeline, log, options.loading).scene;
+    const Scene scene = openSceneOrSample(options.scene, pipeline, log, options.loading);
     program.prepare(&scene);
     log.write(program.plan().notes);
     print(options.dot ? planDot(program.plan())

@@ -14,7 +14,6 @@
 #include "app/commands/OutputFiles.h"
 #include "app/commands/RenderOptions.h"
 #include "app/commands/Timings.h"
-#include "core/Text.h"
 #include "flow/StageChecks.h"
 
 namespace crevice {

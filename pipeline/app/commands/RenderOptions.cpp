@@ -1,7 +1,6 @@
 // Which files a run will write is settled here, before anything is rendered.
 #include "app/commands/RenderOptions.h"
 
-#include <limits>
 #include <optional>
 #include <set>
 #include <system_error>

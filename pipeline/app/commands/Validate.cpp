@@ -33,10 +33,7 @@ void validatePipeline(const std::string& name, const ValidateOptions& options, c
     EffectLibrary library(pipeline.roots(), log, {.useDiskCache = !options.noCache});
     pipeline.addEffects(library);
     FrameProgram program(pipeline.desc(), pipeline.classes().registry(), library, log, {});
-    const Scene scene =
-        options.scene.empty()
-            ? makeSampleScene()
-            : openScene(findScene(pipeline.roots(), options.scene), pipeline, log, options.loading).scene;
+    const Scene scene = openSceneOrSample(options.scene, pipeline, log, options.loading);
     program.prepare(&scene);
     log.write(program.globals().notes());
     log.write(program.plan().notes);
@@ -52,12 +49,17 @@ int runValidate(const ValidateOptions& options) {
     const Log log = makeLog(options.console);
     std::vector<Problem> problems;
     bool badInput = false;
+    const auto collect = [&](const Error& error) {
+        problems.insert(problems.end(), error.problems().begin(), error.problems().end());
+    };
     for (const std::string& name : options.pipelines) {
         try {
             validatePipeline(name, options, log);
+        } catch (const RenderError& error) {
+            collect(error);
         } catch (const Error& error) {
-            badInput = badInput || !dynamic_cast<const RenderError*>(&error);
-            problems.insert(problems.end(), error.problems().begin(), error.problems().end());
+            collect(error);
+            badInput = true;
         }
     }
     if (badInput) throw Error(std::move(problems));
