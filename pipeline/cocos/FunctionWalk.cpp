@@ -2,6 +2,7 @@
 #include "cocos/FunctionWalk.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "cocos/SourceText.h"
 
@@ -89,6 +90,7 @@ bool FunctionWalk::run() {
 }
 
 bool FunctionWalk::take(char c) {
+    const bool nothing = std::exchange(ended_, false);
     if (c == '{') {
         if (depth_.paren > 0 && depth_.brace == 0) return false;
         if (depth_.brace++ == 0 && last_ == ')') begin();
@@ -104,6 +106,8 @@ bool FunctionWalk::take(char c) {
     } else if (c == ')' && depth_.brace == 0) {
         if (--depth_.paren < 0) return false;
     } else if (c == ';' && depth_ == Depth{}) {
+        if (nothing) emptyStatements.push_back(at_);
+        ended_ = true;
         finishStatement();
     }
     last_ = c;
@@ -160,11 +164,13 @@ void FunctionWalk::end(std::size_t at) {
     }
     functions.back().end = at;
     isOpen_ = false;
+    ended_ = true;
 }
 
 bool FunctionWalk::takeDirective() {
     const std::size_t begin = at_, end = lineEnd(text_, at_);
     at_ = end - 1;
+    ended_ = false;
     const LineKind kind = readDirective(text_.substr(begin, end - begin)).kind;
     if (depth_ == Depth{}) {
         noteUnfinished(begin, kind == LineKind::Elif || kind == LineKind::Else || kind == LineKind::Endif);

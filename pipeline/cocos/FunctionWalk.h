@@ -29,6 +29,7 @@ public:
     bool run();
 
     std::vector<FunctionRange> functions;
+    std::vector<std::size_t> emptyStatements;  ///< Each a ';' behind a function's body or another ';'.
 
 private:
     struct Depth {
@@ -57,6 +58,7 @@ private:
     std::size_t unfinishedIn_ = 0;  ///< How many conditions must be open for `unfinished_` to outlast a statement.
     char last_ = '\0';
     bool isOpen_ = false;
+    bool ended_ = false;       ///< What stood before was a function's body or a statement.
     bool unfinished_ = false;  ///< A preprocessor line stood in the middle of the statement.
     bool definesInList_ = false;
 };

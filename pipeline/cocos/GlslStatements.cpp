@@ -59,8 +59,13 @@ private:
         const bool isStruct = tokens_[present_.begin].text == "struct";
         const bool body = present_.brace == 0 && !hasValue_ && (hasStorage_ || isStruct);
         if (body) present_.brace = at_;
-        skipBraces();
-        if (body) {
+        const std::size_t branch = skipBraces();
+        if (body && branch != 0) {  // another branch begins it anew, and only the last one goes on behind them
+            present_.close = present_.end = branch;
+            if (!hasStorage_) present_.storage = branch;
+            found_.push_back(present_);
+            begin(at_);
+        } else if (body) {
             present_.close = at_ - 1;
         } else if (!hasValue_) {
             begin(at_);  // a function's body ends its statement
@@ -74,10 +79,12 @@ private:
         begin(++at_);
     }
 
-    /// From a `{` to behind the `}` that closes it, or to the branch that begins outside of it.
-    void skipBraces() {
+    /// From a `{` to behind the `}` that closes it, or to the branch that begins outside of it: then that line's token.
+    std::size_t skipBraces() {
+        std::size_t branch = 0;
         do {
             const GlslToken& token = tokens_[at_];
+            branch = token.directive ? at_ : 0;
             if (token.directive) {
                 takeDirective();
                 continue;
@@ -87,6 +94,7 @@ private:
             ++at_;
         } while (depth_.brace > 0 && at_ < tokens_.size());
         depth_.brace = 0;
+        return branch;
     }
 
     void takeDirective() {

@@ -206,6 +206,26 @@ void countLines(std::string_view text, std::vector<FunctionRange>& functions) {
     }
 }
 
+/// Takes those that are alive out of `functions`; all where nothing can be told.
+void keepDead(std::string_view text, std::string_view entry, const MacroBodies& known, const LiveHints& hints,
+              std::vector<FunctionRange>& functions) {
+    CallGraph graph(text, functions, known, hints);
+    if (functions.size() < 2 || !graph.isFunction(entry)) return functions.clear();
+    std::vector<std::string_view> roots{entry};
+    if (graph.isFunction("main")) roots.emplace_back("main");
+    std::size_t next = 0;
+    for (const FunctionRange& function : functions) {
+        while (next < hints.kept.size() && hints.kept[next] <= function.firstLine) ++next;
+        if (next < hints.kept.size() && hints.kept[next] <= function.lastLine) roots.push_back(function.name);
+    }
+    const bool certain = graph.follow(roots, false);
+    if (!certain) graph.follow(roots, true);
+    std::erase_if(functions, [&](const FunctionRange& function) {
+        return graph.isLive(function.name) ||
+               (!certain && !holdsOneOf(text.substr(function.begin, function.end - function.begin), hints.foreign));
+    });
+}
+
 }  // namespace
 
 std::vector<FunctionRange> findDeadFunctions(std::string_view text, std::string_view entry, const MacroBodies& macros,
@@ -220,24 +240,17 @@ std::vector<FunctionRange> findDeadFunctions(std::string_view text, std::string_
     }
     for (const std::string_view name : hints.open) known[name];
     FunctionWalk walk(text, known);
-    if (!walk.run() || walk.functions.size() < 2) return {};
+    if (!walk.run()) return {};
     countLines(text, walk.functions);
-    CallGraph graph(text, walk.functions, known, hints);
-    if (!graph.isFunction(entry)) return {};
-    std::vector<std::string_view> roots{entry};
-    if (graph.isFunction("main")) roots.emplace_back("main");
-    std::size_t next = 0;
-    for (const FunctionRange& function : walk.functions) {
-        while (next < hints.kept.size() && hints.kept[next] <= function.firstLine) ++next;
-        if (next < hints.kept.size() && hints.kept[next] <= function.lastLine) roots.push_back(function.name);
-    }
-    const bool certain = graph.follow(roots, false);
-    if (!certain) graph.follow(roots, true);
-    std::erase_if(walk.functions, [&](const FunctionRange& function) {
-        return graph.isLive(function.name) ||
-               (!certain && !holdsOneOf(text.substr(function.begin, function.end - function.begin), hints.foreign));
-    });
-    return std::move(walk.functions);
+    std::vector<FunctionRange> found;
+    for (const std::size_t at : walk.emptyStatements) found.push_back({{}, at, at + 1});
+    countLines(text, found);
+    const auto middle = static_cast<std::ptrdiff_t>(found.size());
+    keepDead(text, entry, known, hints, walk.functions);
+    found.insert(found.end(), walk.functions.begin(), walk.functions.end());
+    std::inplace_merge(found.begin(), found.begin() + middle, found.end(),
+                       [](const FunctionRange& a, const FunctionRange& b) { return a.begin < b.begin; });
+    return found;
 }
 
 }  // namespace crevice::cocos

@@ -97,6 +97,15 @@ bool declaresInterface(const std::vector<MacroDefinition::BodyLine>& body) {
     return false;
 }
 
+/// More braces of one kind than of the other: nobody could tell where what it begins ends.
+bool opensOrCloses(const std::vector<MacroDefinition::BodyLine>& body) {
+    std::ptrdiff_t depth = 0;
+    for (const auto& part : body)
+        depth +=
+            std::count(part.text.begin(), part.text.end(), '{') - std::count(part.text.begin(), part.text.end(), '}');
+    return depth != 0;
+}
+
 /// Splits a text into lines and finds out what each one is.
 class Reader {
 public:
@@ -192,7 +201,7 @@ private:
         if (macro.body.size() > 1 && macro.body.front().text.empty()) macro.body.erase(macro.body.begin());
         macro.bearsDirectives = std::any_of(macro.body.begin(), macro.body.end(),
                                             [](const auto& part) { return isDirectiveText(part.text); });
-        macro.declares = declaresInterface(macro.body);
+        macro.declares = declaresInterface(macro.body) || opensOrCloses(macro.body);
         line.macro = static_cast<int>(source_.macros.size());
         source_.macros.push_back(std::move(macro));
     }

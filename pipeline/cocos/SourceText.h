@@ -56,7 +56,7 @@ struct MacroDefinition {
     bool functionLike = false;
     bool fromPragma = false;
     bool bearsDirectives = false;  ///< A line of the body is a preprocessor line: GLSL's own preprocessor has no such.
-    bool declares = false;         ///< The body begins or holds a declaration with in, out, uniform, buffer.
+    bool declares = false;         ///< The body holds a part of a declaration: in, out, uniform, buffer, a brace alone.
     bool dead = false;             ///< In a branch that no text of version 450 takes.
     bool adoptsNextLine = false;   ///< `#define f(x)` and nothing behind it: the next line is the body.
     std::vector<std::string_view> parameters;

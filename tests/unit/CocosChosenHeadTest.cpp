@@ -8,6 +8,7 @@ namespace crevice::cocos {
 namespace {
 
 using testing::HasSubstr;
+using testing::Not;
 
 const std::string kColor = "layout(location = 0) out vec4 color;\n";
 
@@ -93,6 +94,22 @@ TEST(CocosChosenHead, SeveralInOneDeclaration) {
     EXPECT_THAT(bench.fragmentText().flat.text, HasSubstr("\nlayout(set = 1) uniform highp sampler2D one; "));
     compileBoth(bench);
     bench.compile({{"USE_A", "1"}, {"USE_B", "1"}});
+}
+
+TEST(CocosChosenHead, BracesInMacrosOfTheirOwn) {
+    CocosBench bench;
+    const std::string block = "#define END };\n" + kColor + "BEGIN(Block)\n  vec4 c;\n  vec4 d;\nEND\n" +
+                              "uniform sampler2D map;\nvoid main() { color = c + texture(map, d.xy); }\n";
+    bench.fragment("#define BEGIN(n) uniform n {\n" + block);
+    EXPECT_NE(bench.compile().info.find("Block"), nullptr);
+    bench.fragment(
+        "#if USE_A\n#define BEGIN(n) uniform n {\n#else\n#define BEGIN(n) layout(std140) uniform n {\n#endif\n" +
+        block);
+    compileBoth(bench);
+    bench.fragment("#define LOOP(n) for (int i = 0; i < n; ++i) {\n#define DONE }\nfloat gone() { return missing; }\n" +
+                   kColor + "void main() { color = vec4(0.0); LOOP(3) color.x += float(i); DONE }\n");
+    EXPECT_THAT(bench.fragmentText().flat.text, Not(HasSubstr("gone")));
+    bench.compile();
 }
 
 TEST(CocosChosenHead, ManyInALineDoNotMultiply) {

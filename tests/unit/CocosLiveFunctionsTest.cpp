@@ -8,6 +8,7 @@
 namespace crevice::cocos {
 namespace {
 
+using testing::Contains;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
@@ -85,6 +86,22 @@ TEST(CocosLiveFunctions, ConditionsThatCrossKeepTheirFunctionAlone) {
                                    "float a(vec2 x\n#if A\n , float y)\n#else\n )\n#endif\n{\n#if A\n if (y > 0.0) {\n"
                                    "#else\n {\n#endif\n } return 1.0; }\n"})
         EXPECT_THAT(dead(gone + body + main), ElementsAre("gone", "after")) << body;
+}
+
+TEST(CocosLiveFunctions, SemicolonsThatEndNothingAreLeftOut) {
+    CocosBench bench;
+    bench.fragment(
+        "float twice(float x) { if (x > 1.0) { return x; }; return x * 2.0; };\nstruct S { float a; };;\n"
+        "uniform Block { vec4 c; };\nconst float k[2] = float[2](1.0, 2.0); ;\n"
+        "#define BOTH(n) uniform sampler2D n; vec4 read_##n(vec2 uv) { return texture(n, uv); }\nBOTH(map);\n"
+        "layout(location = 0) out vec4 color;\nvoid main() { color = c * twice(k[0]) * read_map(vec2(0.0)); };\n");
+    const auto lines = words(bench.fragmentText().flat.text);
+    EXPECT_THAT(lines, Contains("float twice(float x) { if (x > 1.0) { return x; }; return x * 2.0; }"));
+    EXPECT_THAT(lines, Contains("struct S { float a; };"));
+    EXPECT_THAT(lines, Contains("uniform Block { vec4 c; };"));
+    EXPECT_THAT(lines, Contains("const float k[2] = float[2](1.0, 2.0);"));
+    EXPECT_THAT(lines, Contains("void main() { color = c * twice(k[0]) * read_map(vec2(0.0)); }"));
+    bench.compile();
 }
 
 TEST(CocosLiveFunctions, ConstructorsInCapitalsAreNoMacros) {

@@ -141,7 +141,7 @@ TEST(CocosMacro, DefinitionsOfBothKindsMayBeChosen) {
     ASSERT_FALSE(problems.hasErrors());
     const auto lines = words(stages[0].flat.text);
     EXPECT_THAT(lines, Contains("in vec2 (a_at);"));  // Without parameters the brackets stay.
-    EXPECT_THAT(lines, Contains("in vec4 a_at;;"));
+    EXPECT_THAT(lines, Contains("in vec4 a_at;"));
     EXPECT_THAT(lines, Contains("gl_Position = a_at.xyxy;"));
     EXPECT_THAT(lines, Contains("in_place(gl_Position);"));  // The semicolon is this definition's alone.
 }
