@@ -60,6 +60,7 @@ void Renderer::load(PipelineRequest request, const RunInfo& run) {
     pipeline_.reset();
     effects_.setRoots(roots);
     pipeline_ = std::make_unique<RenderPipeline>(device_, effects_, registry_, options_.log, std::move(desc), run);
+    pipeline_->observeUpload(options_.uploadProgress);
     if (hasScene_) prepare();
 }
 

@@ -37,7 +37,8 @@ struct RendererOptions {
     bool defaultEnvironment = true;  ///< False: without the latter.
     AssetRoots roots = AssetRoots::standard();
     Log log{};
-    DeviceFaults faults{};  ///< For tests.
+    UploadProgress uploadProgress{};  ///< Is told how much of a scene is on the device.
+    DeviceFaults faults{};            ///< For tests.
 };
 
 /// One picture to make.

@@ -70,8 +70,8 @@ void RenderPipeline::prepare(const Scene& scene, Scene* releasing) {
     program_.prepare(&scene);
     log_.write(program_.globals().notes());
     log_.write(program_.plan().notes);
-    scene_ = releasing ? SceneGpu::makeReleasing(device_, samplers_, *releasing)
-                       : std::make_unique<SceneGpu>(device_, samplers_, scene);
+    scene_ = releasing ? SceneGpu::makeReleasing(device_, samplers_, *releasing, uploadProgress_)
+                       : std::make_unique<SceneGpu>(device_, samplers_, scene, uploadProgress_);
     writeLights(scene);
     targets_ = std::make_unique<TargetPool>(device_, program_.desc(), program_.plan(), program_.stencilTargets());
     context_ = std::make_unique<ExecutionContext>(ExecutionContext{{device_, pool_, samplers_, defaults_, files_},

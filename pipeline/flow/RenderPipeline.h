@@ -36,6 +36,9 @@ public:
     /// The same; what is uploaded is let go of in the scene: see SceneGpu::makeReleasing().
     void prepareReleasing(Scene& scene) { prepare(scene, &scene); }
 
+    /// Is told how much of a scene prepare() has uploaded.
+    void observeUpload(UploadProgress progress) { uploadProgress_ = std::move(progress); }
+
     /// Renders one frame and waits. Targets are made anew only when the extent differs from the last frame's.
     /// With a guard in the document the frame is rendered with a border (see guardedView()), and image() is without it.
     /// `keep`: targets whose contents image() can return afterwards, besides the output.
@@ -102,6 +105,7 @@ private:
     std::vector<std::unique_ptr<Kept>> kept_;
     std::vector<RecordedBarrier> barriers_;
     std::function<void(std::string_view)> stageDone_;
+    UploadProgress uploadProgress_;
 };
 
 }  // namespace crevice

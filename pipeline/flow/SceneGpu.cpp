@@ -43,13 +43,41 @@ SamplerKey keyOf(const SamplerDesc& desc) {
 
 }  // namespace
 
-SceneGpu::SceneGpu(Device& device, SamplerCache& samplers, const Scene& scene, Scene* releasing)
+/// Counts bytes of vertices and pixels, which are nearly all there is to upload.
+class SceneGpu::Meter {
+public:
+    Meter(const Scene& scene, std::uint64_t vertexStride, const UploadProgress& progress) : progress_(progress) {
+        if (!progress_) return;
+        for (const Mesh& mesh : scene.meshes) total_ += mesh.vertices.size() * vertexStride;
+        for (const SceneTexture& texture : scene.textures) total_ += texture.image.pixels.size();
+    }
+
+    void add(std::uint64_t bytes) {
+        if (!progress_ || total_ == 0) return;
+        done_ += bytes;
+        const float share = float(double(done_) / double(total_));
+        if (share - told_ < kStep && done_ < total_) return;
+        told_ = share;
+        progress_(share);
+    }
+
+private:
+    static constexpr float kStep = 0.01f;
+
+    const UploadProgress& progress_;
+    std::uint64_t total_ = 0, done_ = 0;
+    float told_ = 0;
+};
+
+SceneGpu::SceneGpu(Device& device, SamplerCache& samplers, const Scene& scene, Scene* releasing,
+                   const UploadProgress& progress)
     : scene_(scene), instances_(scene), layout_(scene) {
-    uploadMeshes(device, releasing);
-    uploadTextures(device, samplers, releasing);
+    Meter meter(scene, layout_.stride(), progress);
+    uploadMeshes(device, releasing, meter);
+    uploadTextures(device, samplers, releasing, meter);
 }
 
-void SceneGpu::uploadMeshes(Device& device, Scene* releasing) {
+void SceneGpu::uploadMeshes(Device& device, Scene* releasing, Meter& meter) {
     std::uint64_t vertexCount = 0, indexCount = 0, shortCount = 0;
     for (const Mesh& mesh : scene_.meshes) {
         const bool sixteenBit = mesh.vertices.size() <= kShortVertices;
@@ -76,6 +104,7 @@ void SceneGpu::uploadMeshes(Device& device, Scene* releasing) {
         for (std::size_t first = 0; first < mesh.vertices.size(); first += kVerticesAtOnce) {
             const std::size_t count = std::min(kVerticesAtOnce, mesh.vertices.size() - first);
             layout_.pack(std::span(mesh.vertices).subspan(first, count), out.subspan(first * stride, count * stride));
+            meter.add(count * stride);
             if (releasing)
                 releasePages(std::as_writable_bytes(std::span(releasing->meshes[i].vertices).subspan(first, count)));
         }
@@ -89,13 +118,14 @@ void SceneGpu::uploadMeshes(Device& device, Scene* releasing) {
     }
 }
 
-void SceneGpu::uploadTextures(Device& device, SamplerCache& samplers, Scene* releasing) {
+void SceneGpu::uploadTextures(Device& device, SamplerCache& samplers, Scene* releasing, Meter& meter) {
     for (std::size_t i = 0; i < scene_.textures.size(); ++i) {
         const crevice::SceneTexture& texture = scene_.textures[i];
         // A moved image keeps its size.
         Image image = releasing ? std::move(releasing->textures[i].image) : texture.image;
         if (texture.srgb && image.format == Format::RGBA8) image.format = Format::RGBA8_SRGB;
         textures_.push_back(makeTexture(device, image, texture.sampler.mipmaps, texture.name));
+        meter.add(image.pixels.size());
         textureSamplers_.push_back(samplers.get(keyOf(texture.sampler)));
     }
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <span>
 #include <vector>
@@ -13,6 +14,9 @@
 
 namespace crevice {
 
+/// Is told how much of a scene is on the device, 0 … 1, at steps of a hundredth or more.
+using UploadProgress = std::function<void(float share)>;
+
 class SceneGpu {
 public:
     struct MeshRange {
@@ -22,11 +26,13 @@ public:
     };
 
     /// The scene must stay as it is while this lives.
-    SceneGpu(Device& device, SamplerCache& samplers, const Scene& scene) : SceneGpu(device, samplers, scene, nullptr) {}
+    SceneGpu(Device& device, SamplerCache& samplers, const Scene& scene, const UploadProgress& progress = {})
+        : SceneGpu(device, samplers, scene, nullptr, progress) {}
     /// The same, but vertices, indices and pixels in `scene` are let go of one by one as the device has them: peak
     /// memory is then little above one copy. Everything else in it stays.
-    static std::unique_ptr<SceneGpu> makeReleasing(Device& device, SamplerCache& samplers, Scene& scene) {
-        return std::unique_ptr<SceneGpu>(new SceneGpu(device, samplers, scene, &scene));
+    static std::unique_ptr<SceneGpu> makeReleasing(Device& device, SamplerCache& samplers, Scene& scene,
+                                                   const UploadProgress& progress = {}) {
+        return std::unique_ptr<SceneGpu>(new SceneGpu(device, samplers, scene, &scene, progress));
     }
 
     const Scene& scene() const { return scene_; }
@@ -42,9 +48,11 @@ public:
 
 private:
     /// `releasing`: the scene, when its copies are not wanted afterwards; else null.
-    SceneGpu(Device& device, SamplerCache& samplers, const Scene& scene, Scene* releasing);
-    void uploadMeshes(Device& device, Scene* releasing);
-    void uploadTextures(Device& device, SamplerCache& samplers, Scene* releasing);
+    SceneGpu(Device& device, SamplerCache& samplers, const Scene& scene, Scene* releasing,
+             const UploadProgress& progress);
+    class Meter;
+    void uploadMeshes(Device& device, Scene* releasing, Meter& meter);
+    void uploadTextures(Device& device, SamplerCache& samplers, Scene* releasing, Meter& meter);
 
     const Scene& scene_;
     InstanceTable instances_;

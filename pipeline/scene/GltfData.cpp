@@ -125,6 +125,7 @@ private:
         const auto [entry, isFirst] = largest_.emplace(accessor, -1.0f);
         if (isFirst && mayRead(accessor)) {
             const Floats numbers = readFirstFloats(file_, accessor, most_);
+            file_.work.jointNumbers += numbers.values.size();
             for (const float number : numbers.values) entry->second = std::max(entry->second, number);
         }
         return entry->second;

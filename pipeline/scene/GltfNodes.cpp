@@ -120,7 +120,7 @@ private:
         const auto& joints = listIn(skin, "joints");
         const int accessor = intOr(skin, "inverseBindMatrices");
         const Floats inverse = accessor >= 0 ? readSomeFloats(file_, accessor, 0, joints.size()) : Floats{};
-        file_.jointMatrices += joints.size();
+        file_.work.jointMatrices += joints.size();
         std::size_t mirrored = 0;
         for (std::size_t i = 0; i < joints.size(); ++i) {
             glm::mat4 bind(1);

@@ -28,24 +28,33 @@ public:
     }
     bool isOpaqueMesh(int mesh) {
         const auto [entry, isNew] = meshes_.emplace(mesh, false);
-        if (isNew) entry->second = isOpaque(scene_.meshes[std::size_t(mesh)]);
+        if (isNew)
+            entry->second = look(scene_.meshes[std::size_t(mesh)], scene_.meshes[std::size_t(mesh)].vertices.size());
         return entry->second;
     }
+    std::size_t looked() const { return looked_; }
 
 private:
     bool isOpaqueTexture(int texture) {
         const auto [entry, isNew] = textures_.emplace(texture, false);
-        if (isNew) entry->second = isOpaque(scene_.textures[std::size_t(texture)].image);
+        const Image& image = scene_.textures[std::size_t(texture)].image;
+        if (isNew) entry->second = look(image, std::size_t(image.width) * image.height);
         return entry->second;
+    }
+    template <class Part>
+    bool look(const Part& part, std::size_t elements) {
+        looked_ += elements;
+        return isOpaque(part);
     }
 
     const Scene& scene_;
     std::map<int, bool> textures_, meshes_;
+    std::size_t looked_ = 0;
 };
 
 }  // namespace
 
-void drawOpaqueWhatIs(Scene& scene) {
+std::size_t drawOpaqueWhatIs(Scene& scene) {
     Opaque opaque(scene);
     std::map<int, bool> candidates;  // blended materials in use
     for (const Instance& instance : scene.instances) {
@@ -57,6 +66,7 @@ void drawOpaqueWhatIs(Scene& scene) {
     }
     for (const auto& [material, isWhole] : candidates)
         if (isWhole) scene.materials[std::size_t(material)].alphaMode = AlphaMode::Opaque;
+    return opaque.looked();
 }
 
 }  // namespace crevice::gltf

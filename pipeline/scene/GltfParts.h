@@ -33,6 +33,14 @@ private:
     std::size_t visited_ = 0;
 };
 
+/// What was done so far of that which files can ask for again and again: it grows with the file, and tests hold it to
+/// that.
+struct WorkDone {
+    std::size_t jointMatrices = 0;  ///< Made of skins.
+    std::size_t jointNumbers = 0;   ///< Of JOINTS_n, held against the sizes of skins.
+    std::size_t treeSteps = 0;      ///< From node to node, and questions about two nodes.
+};
+
 /// An opened file: its JSON with places for messages, the same as structs, and the bytes they lie in.
 struct File {
     std::string name;  ///< As given by the caller.
@@ -46,9 +54,9 @@ struct File {
     Model model{};
     mutable std::set<std::string> faults{};  ///< Formal faults told so far: each is told once.
     mutable IncreasingRuns increasing{};
-    std::size_t bytesHeld = 0;              ///< The file itself, and what it names.
-    mutable std::size_t spent = 0;          ///< By spend().
-    mutable std::size_t jointMatrices = 0;  ///< Made of skins so far.
+    std::size_t bytesHeld = 0;      ///< The file itself, and what it names.
+    mutable std::size_t spent = 0;  ///< By spend().
+    mutable WorkDone work{};
 
     /// The place of `list[index]`, as exact as the format allows.
     SourceLoc where(std::string_view list, std::size_t index) const;
@@ -232,7 +240,8 @@ void convertSpecularGlossiness(const File& file, const std::vector<SpecularGloss
                                std::size_t bytesLeft, Scene& scene);
 
 /// Blended materials whose factor, texture and vertex colours are opaque become opaque. Needs pixels and vertices.
-void drawOpaqueWhatIs(Scene& scene);
+/// Returns how many texels and vertices it looked at.
+std::size_t drawOpaqueWhatIs(Scene& scene);
 
 /// The numbers that an animation gives at one time; what it does not move stays as the file has it.
 struct Pose {

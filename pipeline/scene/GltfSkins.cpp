@@ -18,7 +18,7 @@ constexpr std::size_t kMostLooks = 10'000'000;
 class Trees {
 public:
     explicit Trees(const File& file)
-        : roots_(file.model.nodes.size(), -1), first_(roots_.size(), 0), behind_(roots_.size(), 0) {
+        : work_(file.work), roots_(file.model.nodes.size(), -1), first_(roots_.size(), 0), behind_(roots_.size(), 0) {
         std::vector<char> isChild(roots_.size(), 0);
         for (const NodePart& node : file.model.nodes)
             for (const int child : node.children) isChild[std::size_t(child)] = 1;
@@ -26,9 +26,13 @@ public:
             if (!isChild[i]) walk(file.model.nodes, int(i));
     }
 
-    int rootOf(int node) const { return roots_[std::size_t(node)]; }
+    int rootOf(int node) const {
+        ++work_.treeSteps;
+        return roots_[std::size_t(node)];
+    }
     /// `ancestor` is above `node`, or the same.
     bool isAbove(int ancestor, int node) const {
+        ++work_.treeSteps;
         const int at = first_[std::size_t(node)];
         return first_[std::size_t(ancestor)] <= at && at < behind_[std::size_t(ancestor)];
     }
@@ -38,6 +42,7 @@ private:
     void walk(const std::vector<NodePart>& nodes, int root) {
         std::vector<int> stack{root};
         while (!stack.empty()) {
+            ++work_.treeSteps;
             const std::size_t node = std::size_t(stack.back());
             if (roots_[node] >= 0) {  // all below it have their numbers
                 behind_[node] = next_;
@@ -50,6 +55,7 @@ private:
         }
     }
 
+    WorkDone& work_;
     std::vector<int> roots_, first_, behind_;
     int next_ = 0;
 };

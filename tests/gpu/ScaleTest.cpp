@@ -1,4 +1,6 @@
 // Many objects and many lights: instancing, kept draw lists and the grid of lights change the cost, never the picture.
+#include <algorithm>
+
 #include "FrameFixture.h"
 
 namespace crevice {
@@ -182,6 +184,28 @@ TEST_F(Scale, ASceneThatIsNotKeptLooksTheSame) {
     EXPECT_EQ(releasing.scene().textures[0].image.pixels.capacity(), 0u);
     releasing.setScene(field(3));  // the next scene
     EXPECT_NE(releasing.render(view), kept);
+}
+
+TEST_F(Scale, UploadsTellHowFarTheyAre) {
+    Scene scene = darkScene();
+    scene.meshes.push_back(makeSphere(1, 512));  // more vertices than are packed at once
+    scene.instances.resize(1);
+    scene.textures.resize(4, {.name = "white", .image = Image(256, 256, Format::RGBA8), .srgb = true, .sampler = {}});
+    for (const bool keep : {true, false}) {
+        std::vector<float> shares;
+        Renderer renderer(
+            RendererOptions{.validate = true, .keepScene = keep, .log = log_, .uploadProgress = [&](float share) {
+                                shares.push_back(share);
+                            }});
+        load(renderer, "forward");
+        EXPECT_TRUE(shares.empty());
+        renderer.setScene(scene);
+        EXPECT_GE(shares.size(), 6u) << "vertices twice or more, four pictures";
+        EXPECT_LE(shares.size(), 101u);
+        EXPECT_TRUE(std::ranges::is_sorted(shares));
+        EXPECT_EQ(shares.back(), 1);
+        expectSilence(renderer);
+    }
 }
 
 }  // namespace

@@ -265,7 +265,7 @@ TEST(GltfShared, JointsOfASkinAreMadeOnce) {
     gltf::Meshes meshes(file, materials, release, scene.meshes);
     gltf::readNodes(file, meshes, scene);
     EXPECT_EQ(scene.instances.size(), 0u);
-    EXPECT_EQ(file.jointMatrices, 3000u);
+    EXPECT_EQ(file.work.jointMatrices, 3000u);
     EXPECT_EQ(meshes.readings(), 3000u);
 }
 

@@ -68,6 +68,7 @@ private:
     std::optional<Camera> camera_;              ///< Chosen for it.
     glm::vec4 background_{0, 0, 0, 1};          ///< Its camera's, where --background is not given.
     std::vector<StageSet> wanted_, sceneSets_;  ///< What it says of the pipeline, and what that was loaded with.
+    std::string uploading_;                     ///< What progress says while the device gets the scene.
     std::unique_ptr<Renderer> renderer_;
 };
 
@@ -103,7 +104,11 @@ void RenderRun::start() {
                                                            .defaultLight = !options_.noDefaultLight,
                                                            .defaultEnvironment = !job_.environment.isNone(),
                                                            .roots = pipeline_.roots(),
-                                                           .log = makeLog(options_.console, progress_)});
+                                                           .log = makeLog(options_.console, progress_),
+                                                           .uploadProgress = [this](float share) {
+                                                               progress_.show(
+                                                                   fmt::format("{} {:.0f} %", uploading_, 100 * share));
+                                                           }});
     pipeline_.addEffects(renderer_->effects());
     timings_.deviceMs = watch_.lap();
     for (const std::filesystem::path& plugin : pipeline_.classes().pluginFiles()) renderer_->loadPlugin(plugin);
@@ -132,7 +137,8 @@ void RenderRun::renderScene(std::size_t index) {
         if (std::find(view.keep.begin(), view.keep.end(), dump.target) == view.keep.end())
             view.keep.push_back(dump.target);
     }
-    progress_.show(fmt::format("{}/{} {}: uploading …", index + 1, job_.items.size(), item.scene.name));
+    uploading_ = fmt::format("{}/{} {}: uploading", index + 1, job_.items.size(), item.scene.name);
+    progress_.show(uploading_ + " …");
     renderer_->setScene(std::move(scene_));
     timings_.prepareMs += watch_.lap();
     timings_.scenes.push_back({.scene = item.scene.name, .stages = {}, .framesMs = {}});
