@@ -209,24 +209,34 @@ private:
         if (!list) instances.push_back(glm::mat4(1));
 
         const glm::uvec3 count(glm::max(array.count, glm::vec3(1)));
-        const double total = double(parents.size()) * count.x * count.y * count.z * double(instances.size());
+        // An empty list is no reason to walk over a thousand million cells.
+        const double total = std::max(1.0, double(parents.size())) * count.x * count.y * count.z *
+                             std::max(1.0, double(instances.size()));
         if (total > double(options_.limits.maxInstances)) {
             problems_.error(value.where(),
                             fmt::format("{} stands {} times, more than {}", what, total, options_.limits.maxInstances),
                             "lower \"count\" of its arrays, or its \"instances\"");
             return {};
         }
+        const std::vector<glm::mat4> cells = cellsOf(array.step, count);
         std::vector<glm::mat4> worlds;
         for (const glm::mat4& parent : parents)
-            for (unsigned z = 0; z < count.z; ++z)
-                for (unsigned y = 0; y < count.y; ++y)
-                    for (unsigned x = 0; x < count.x; ++x) {
-                        PlacementFields cell;
-                        cell.position = array.step * glm::vec3(x, y, z);
-                        for (const glm::mat4& instance : instances)
-                            worlds.push_back(parent * own * cell.matrix() * instance);
-                    }
+            for (const glm::mat4& cell : cells)
+                for (const glm::mat4& instance : instances) worlds.push_back(parent * own * cell * instance);
         return worlds;
+    }
+
+    // x runs fastest.
+    static std::vector<glm::mat4> cellsOf(const glm::vec3& step, const glm::uvec3& count) {
+        std::vector<glm::mat4> cells;
+        for (unsigned z = 0; z < count.z; ++z)
+            for (unsigned y = 0; y < count.y; ++y)
+                for (unsigned x = 0; x < count.x; ++x) {
+                    PlacementFields cell;
+                    cell.position = step * glm::vec3(x, y, z);
+                    cells.push_back(cell.matrix());
+                }
+        return cells;
     }
 
     // [x, y, z], or an object with position, rotation and scale.

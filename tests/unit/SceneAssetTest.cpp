@@ -149,6 +149,10 @@ TEST(SceneAsset, MistakesHavePlacesAndNearNames) {
 TEST(SceneAsset, LimitsAreKept) {
     EXPECT_TRUE(contains(errorIn(R"({"objects": [{"primitive": "box", "array": {"count": [1000, 1000, 1000]}}]})"),
                          "more than 1000000"));
+    // Nothing stands there, and yet the cells are too many to walk over.
+    EXPECT_TRUE(contains(
+        errorIn(R"({"objects": [{"primitive": "box", "array": {"count": [10000, 10000, 10000]}, "instances": []}]})"),
+        "more than 1000000"));
     std::string nested = R"({"primitive": "box"})";
     for (int i = 0; i < 20; ++i) nested = R"({"objects": [)" + nested + "]}";
     EXPECT_TRUE(contains(errorIn(R"({"objects": [)" + nested + "]}"), "nested deeper than 16"));
