@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "effect/PropertyTarget.h"
+
 namespace crevice::cocos {
 namespace {
 
@@ -39,15 +41,6 @@ Value statesOf(const MtlPass& pass) {
     for (const Member& member : pass.states.members())
         if (!saysNothing(member.value)) states.set(member.key, member.value, member.keyLoc);
     return states;
-}
-
-std::string uniformOf(const EffectProperty& property) {
-    return property.target.empty() ? property.name : property.target.substr(0, property.target.find('.'));
-}
-
-std::string swizzleOf(const EffectProperty& property) {
-    const auto dot = property.target.find('.');
-    return dot == std::string::npos ? std::string() : property.target.substr(dot + 1);
 }
 
 bool isTextureProperty(const EffectProperty& property) { return property.value.isString(); }
@@ -115,9 +108,8 @@ private:
     void setUniform(const EffectPass& pass, const MtlProperty& written, Value& values) {
         for (const EffectProperty& property : pass.properties) {
             if (uniformOf(property) != written.name) continue;
-            const std::string swizzle = swizzleOf(property);
-            const std::size_t first = swizzle.empty() ? 0 : std::string("xyzw").find(swizzle.front());
-            if (first != std::string::npos) setValue(property, written, first, values);
+            const int first = firstComponent(swizzleOf(property));
+            if (first >= 0) setValue(property, written, static_cast<std::size_t>(first), values);
         }
     }
 

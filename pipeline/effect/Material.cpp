@@ -10,6 +10,7 @@
 #include <stdexcept>
 
 #include "core/Text.h"
+#include "effect/PropertyTarget.h"
 
 namespace crevice {
 namespace {
@@ -49,18 +50,6 @@ MemberShape shapeOf(const BlockMember& member) {
     return {};
 }
 
-std::string swizzleOf(const EffectProperty& property) {
-    const auto dot = property.target.find('.');
-    return dot == std::string::npos ? std::string() : property.target.substr(dot + 1);
-}
-
-/// First component of a run such as "yz"; -1 when it is none.
-int swizzleStart(const std::string& swizzle) {
-    for (const std::string all : {"xyzw", "rgba"})
-        if (const auto at = all.find(swizzle); at != std::string::npos) return static_cast<int>(at);
-    return -1;
-}
-
 std::string numbers(std::uint32_t count) { return count == 1 ? "1 number" : fmt::format("{} numbers", count); }
 
 Value makeNumbers(std::initializer_list<float> values) {
@@ -70,10 +59,6 @@ Value makeNumbers(std::initializer_list<float> values) {
 }
 
 }  // namespace
-
-std::string Material::targetUniform(const EffectProperty& property) {
-    return property.target.empty() ? property.name : property.target.substr(0, property.target.find('.'));
-}
 
 Material::Material(const EffectVariant& variant, LinearRule linear)
     : variant_(variant), pass_(*variant.pass), linear_(linear) {
@@ -94,7 +79,7 @@ Material::Material(const EffectVariant& variant, LinearRule linear)
     if (linear_ == LinearRule::AsGiven) setIdentities();
     Problems problems;
     for (const EffectProperty& property : pass_.properties) {
-        if (MaterialSampler* sampler = findSampler(targetUniform(property))) {
+        if (MaterialSampler* sampler = findSampler(uniformOf(property))) {
             sampler->isProperty = true;
             sampler->sampler = property.sampler;
         }
@@ -137,7 +122,7 @@ void Material::apply(const Value& object, Problems& problems) {
 }
 
 void Material::setValue(const EffectProperty& property, const Value& value, Problems& problems, bool isDefault) {
-    if (MaterialSampler* sampler = findSampler(targetUniform(property)))
+    if (MaterialSampler* sampler = findSampler(uniformOf(property)))
         return setTexture(property, *sampler, value, problems);
     const bool isTexture = property.value.isString() && !isAuto(property.value);
     if (isAuto(value) && isAuto(property.value)) {
@@ -232,14 +217,14 @@ bool Material::checkNumbers(const EffectProperty& property, const Value& value, 
 
 /// Where a property's numbers go. False when this variant has no such member; a property that does not fit is reported.
 bool Material::findPlace(const EffectProperty& property, Place& place, Problems& problems) const {
-    const std::string uniform = targetUniform(property), swizzle = swizzleOf(property);
+    const std::string uniform = uniformOf(property), swizzle = swizzleOf(property);
     for (const ShaderResource& resource : variant_.info.resources) {
         if (resource.slot.set != kMaterialSet || resource.kind != ResourceKind::UniformBlock) continue;
         const auto member = std::find_if(resource.members.begin(), resource.members.end(),
                                          [&](const BlockMember& m) { return m.name == uniform; });
         if (member == resource.members.end()) continue;
         const MemberShape shape = shapeOf(*member);
-        const int start = swizzle.empty() ? 0 : swizzleStart(swizzle);
+        const int start = firstComponent(swizzle);
         const auto count = static_cast<std::uint32_t>(swizzle.empty() ? shape.components : swizzle.size());
         const bool array = member->arrayCount != 0;
         const bool good = shape.known && (!array || (linear_ == LinearRule::AsGiven && swizzle.empty()));

@@ -68,9 +68,6 @@ public:
     /// The present value of a property as written, or null.
     const Value* value(std::string_view name) const;
 
-    /// The uniform that a property feeds: its target without the swizzle, else its own name.
-    static std::string targetUniform(const EffectProperty& property);
-
 private:
     struct Place {
         std::size_t block = 0;

@@ -8,7 +8,7 @@
 
 #include "core/Text.h"
 #include "effect/Declarations.h"
-#include "effect/Material.h"
+#include "effect/PropertyTarget.h"
 
 namespace crevice {
 namespace {
@@ -109,7 +109,7 @@ void checkPropertyTargets(const IncludeSources& sources, const EffectPass& pass,
     const auto collect = [&](const FlatSource& flat) {
         for (std::string& name : Declarations(flat).names()) words.insert(std::move(name));
     };
-    const auto isMentioned = [&](const EffectProperty& p) { return words.contains(Material::targetUniform(p)); };
+    const auto isMentioned = [&](const EffectProperty& p) { return words.contains(uniformOf(p)); };
     for (const StageSource& stage : stages) collect(stage.flat);
     if (std::all_of(pass.properties.begin(), pass.properties.end(), isMentioned)) return;
     // Passes often share one list of properties; another pass may be the one that uses it.
@@ -119,7 +119,7 @@ void checkPropertyTargets(const IncludeSources& sources, const EffectPass& pass,
             for (const FlatSource& flat : flattenPass(sources, other, ignored).sources) collect(flat);
     for (const EffectProperty& property : pass.properties) {
         if (isMentioned(property)) continue;
-        const std::string target = Material::targetUniform(property);
+        const std::string target = uniformOf(property);
         const auto near = nearestNames(target, {words.begin(), words.end()}, 1);
         problems.error(property.where,
                        fmt::format("property '{}' of effect '{}' feeds no uniform: no program mentions '{}'",

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "effect/PropertyTarget.h"
 #include "flow/CocosMacros.h"
 #include "flow/MaterialStates.h"
 
@@ -79,7 +80,7 @@ PassValues passValues(const Value& properties, const EffectPass& pass) {
         if (isTexture(*property) && member.value.isInteger()) {
             TextureRef ref;
             ref.texture = static_cast<int>(member.value.integer());
-            values.textures.emplace_back(Material::targetUniform(*property), ref);
+            values.textures.emplace_back(uniformOf(*property), ref);
             continue;
         }
         const bool convert = property->linear && (member.value.isNumber() || member.value.isArray());

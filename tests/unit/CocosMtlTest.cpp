@@ -37,6 +37,7 @@ EffectAsset effect() {
     first.properties = {
         property("mainColor", "[1, 1, 1, 1]", "albedo"), property("metallic", "0.5", "pbrParams.z"),
         property("tiling", "[1, 1]", "tilingOffset.xy"), property("offset", "[0, 0]", "tilingOffset.zw"),
+        property("glow", "[0, 0, 0]", "glowParams.rgb"), property("glowScale", "1", "glowParams.a"),
         property("mainTexture", "grey", "albedoMap"),    property("normalMap", "normal")};
     EffectPass second = first;
     second.propertyIndex = 0;
@@ -153,6 +154,12 @@ TEST(CocosMtl, AUniformsNameReachesThePropertiesThatFeedIt) {
     const MaterialEffect made = make(withProps(
         R"([ { "tilingOffset": { "__type__": "cc.Vec4", "x": 1, "y": 2, "z": 3, "w": 4 }, "albedo": { "__type__": "cc.Vec4", "x": 5, "y": 6, "z": 7, "w": 8 } } ])"));
     EXPECT_EQ(made.passes[0].properties.toJson(-1), R"({"tiling":[1,2],"offset":[3,4],"mainColor":[5,6,7,8]})");
+}
+
+TEST(CocosMtl, ComponentsOfAUniformMayBeNamedAsColours) {
+    const MaterialEffect made =
+        make(withProps(R"([ { "glowParams": { "__type__": "cc.Vec4", "x": 0.1, "y": 0.2, "z": 0.3, "w": 4 } } ])"));
+    EXPECT_EQ(made.passes[0].properties.toJson(-1), R"({"glow":[0.1,0.2,0.3],"glowScale":4})");
 }
 
 TEST(CocosMtl, ValuesTakeTheLengthOfTheirUniform) {
