@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 
 #include "core/Text.h"
-#include "plan/PipelineAssetKeys.h"
+#include "plan/ObjectReader.h"
 
 namespace crevice {
 namespace fs = std::filesystem;
@@ -38,6 +38,7 @@ private:
     std::vector<PipelineSource> readAncestors(Value document, const std::string& file);
     fs::path findParent(const Value& extends, const fs::path& folder) const;
     const Value* declaration(const std::string& option, const char* key) const;
+    std::vector<std::string> declaredOptions() const;
     std::optional<std::string> optionText(const std::string& option) const;
     bool resolveName(Value& name);
     void reportLostFlow(const Value& name, const std::string& written) const;
@@ -138,6 +139,14 @@ const Value* ChainReader::declaration(const std::string& option, const char* key
     return nullptr;
 }
 
+std::vector<std::string> ChainReader::declaredOptions() const {
+    std::vector<std::string> names;
+    for (const Value& options : declared_)
+        for (const Member& member : options.members())
+            if (!member.value.isNull()) names.push_back(member.key);
+    return names;
+}
+
 /// The value of an option as text: requested, else its default. A request for a choice that is none is reported with
 /// the other options; until then the default holds.
 std::optional<std::string> ChainReader::optionText(const std::string& option) const {
@@ -163,10 +172,7 @@ bool ChainReader::resolveName(Value& name) {
         const std::string option = text.substr(at + 1, end - at - 1);
         const auto value = optionText(option);
         if (!value) {
-            std::vector<std::string> known;
-            for (const Value& options : declared_)
-                for (const Member& member : options.members())
-                    if (!member.value.isNull()) known.push_back(member.key);
+            const std::vector<std::string> known = declaredOptions();
             problems_.error(name.where(), fmt::format("'${}' in the name of a flow names no option", option),
                             known.empty() ? "declare it under \"options\" of this document or of a parent"
                                           : didYouMean(option, known, "options"));

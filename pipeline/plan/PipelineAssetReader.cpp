@@ -8,8 +8,8 @@
 #include <fmt/format.h>
 
 #include "core/Text.h"
+#include "plan/ObjectReader.h"
 #include "plan/PipelineAsset.h"
-#include "plan/PipelineAssetKeys.h"
 #include "plan/TargetFields.h"
 
 namespace crevice {

@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "core/Text.h"
-#include "plan/PipelineAssetKeys.h"
+#include "plan/ObjectReader.h"
 #include "plan/PipelineEditsTree.h"
 
 namespace crevice {

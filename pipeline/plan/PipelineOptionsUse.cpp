@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include "core/Text.h"
-#include "plan/PipelineAssetKeys.h"
+#include "plan/ObjectReader.h"
 #include "plan/PipelineOptions.h"
 
 namespace crevice {

@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "core/Text.h"
-#include "plan/PipelineAssetKeys.h"
+#include "plan/ObjectReader.h"
 
 namespace crevice {
 namespace {

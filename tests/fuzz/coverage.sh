@@ -6,9 +6,9 @@ build=$(realpath "$1"); corpus=$(realpath "${2:-.}"); source=$(realpath "$(dirna
 profdata=$(command -v llvm-profdata-14 || command -v llvm-profdata); cov=$(command -v llvm-cov-14 || command -v llvm-cov)
 export CREVICE_DATA_DIR=$source
 declare -A files=(
-  [pipeline]="plan/Pipeline(Asset|Edits|Options|Text).*|plan/TargetFields|core/Json.*"
+  [pipeline]="plan/Pipeline(Asset|Edits|Options|Text).*|plan/TargetFields|plan/ObjectReader|core/Json.*"
   [effect]="effect/(EffectAsset|EffectHeader|KeyReader|RenderStateReader|PriorityExpression|Includes|Declarations|Defines|GlslText|VariantBuilder)|core/Yaml.*"
-  [material]="effect/Material"
+  [material]="effect/(Material|PropertyTarget)"
   [scene]="scene/Scene(Asset|Fields|FileLookup)"
   [gltf]="scene/Gltf.*"
   [image]="core/(Hdr|Exr|Picture)"

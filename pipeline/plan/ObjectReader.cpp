@@ -1,11 +1,12 @@
-// Checks objects of a pipeline document against their key tables.
+// What each kind of value allows, in code and in words.
+#include "plan/ObjectReader.h"
+
 #include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
 
 #include "core/Text.h"
-#include "plan/PipelineAssetKeys.h"
 
 namespace crevice {
 namespace {
