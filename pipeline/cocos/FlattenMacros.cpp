@@ -110,9 +110,15 @@ bool Flattener::visitCalls(std::string_view text, std::unordered_set<std::string
             if (!seen.insert(call).second) continue;
             const Visited visited = visit(call);
             if (visited == Visited::Found) return true;
-            const MacroDefinition* macro = visited == Visited::PassOver ? nullptr : definitionOf(call);
-            if (macro == nullptr) continue;
-            for (const auto& part : macro->body) waiting.push_back(part.text);
+            if (visited == Visited::PassOver) continue;
+            const auto enter = [&](const MacroDefinition& macro) {
+                for (const auto& part : macro.body) waiting.push_back(part.text);
+            };
+            if (isOpenChoice(call)) {
+                for (const MacroDefinition* choice : choices_.of(call)) enter(*choice);
+            } else if (const MacroDefinition* macro = definitionOf(call)) {
+                enter(*macro);
+            }
         }
     }
     return false;

@@ -38,13 +38,13 @@ void MacroTable::visit(const SourceText& root, const Resolve& resolve, std::size
                     follow(directive.rest);
         }
     }
-    for (const MacroDefinition* macro : all_) first_.emplace(macro->name, macro);
+    for (const MacroDefinition* macro : all_) byName_[macro->name].push_back(macro);
 }
 
 void MacroTable::chooseExpanded() {
     for (const MacroDefinition* macro : all_)
         if (macro->bearsDirectives || macro->declares) expand(macro->name);
-    for (const SourceText* source : sources_) expandFunctions(source->splitCalls);
+    for (const SourceText* source : sources_) carryAll(source->splitCalls);
     if (expanded_.empty()) return;
     for (int pass = 0; pass < kMaxPasses; ++pass) {
         while (expandCallers()) continue;
@@ -68,13 +68,26 @@ bool MacroTable::expandCallers() {
     return grown;
 }
 
-bool MacroTable::expandFunctions(const std::unordered_set<std::string_view>& names) {
+/// Whoever is called within a carrying macro may be given what it carries, and so may a macro that only names another.
+bool MacroTable::carryAll(const std::unordered_set<std::string_view>& names) {
     bool grown = false;
-    for (const std::string_view name : names) {
-        const MacroDefinition* macro = find(name);
-        if (macro == nullptr || !macro->functionLike || expanded_.contains(name)) continue;
-        expand(name);
-        grown = true;
+    std::vector<std::string_view> waiting(names.begin(), names.end());
+    while (!waiting.empty()) {
+        const auto known = byName_.find(waiting.back());
+        waiting.pop_back();
+        if (known == byName_.end() || !carrying_.insert(known->first).second) continue;
+        for (const MacroDefinition* macro : known->second) {
+            if (macro->functionLike && !expanded_.contains(macro->name)) {
+                expand(macro->name);
+                grown = true;
+            }
+            for (const auto& part : macro->body)
+                for (std::size_t at = 0; at < part.text.size();) {
+                    const std::string_view word = leadingName(part.text.substr(at));
+                    if (!word.empty()) waiting.push_back(word);
+                    at += std::max<std::size_t>(1, word.size());
+                }
+        }
     }
     return grown;
 }
@@ -148,7 +161,7 @@ bool MacroTable::expandAround() {
                     break;
         }
     }
-    return expandFunctions(names);
+    return carryAll(names);
 }
 
 void MacroTable::chooseChosen() {
@@ -167,8 +180,8 @@ void MacroTable::expand(std::string_view name) {
 }
 
 const MacroDefinition* MacroTable::find(std::string_view name) const {
-    const auto it = first_.find(name);
-    return it == first_.end() ? nullptr : it->second;
+    const auto it = byName_.find(name);
+    return it == byName_.end() ? nullptr : it->second.front();
 }
 
 std::size_t MacroTable::findCall(std::string_view text, std::size_t from) const {

@@ -37,7 +37,7 @@ private:
     void chooseExpanded();
     bool expandCallers();
     bool expandAround();
-    bool expandFunctions(const std::unordered_set<std::string_view>& names);
+    bool carryAll(const std::unordered_set<std::string_view>& names);
     void chooseChosen();
     void expand(std::string_view name);
     bool calls(const MacroDefinition& macro) const;
@@ -46,9 +46,10 @@ private:
     std::vector<const MacroDefinition*> all_;
     std::vector<const SourceText*> sources_;
     std::unordered_set<const SourceText*> seen_;
-    std::unordered_map<std::string_view, const MacroDefinition*> first_;
+    std::unordered_map<std::string_view, std::vector<const MacroDefinition*>> byName_;
     std::unordered_set<std::string_view> expanded_, chosen_;
-    std::array<bool, 128> firstLetters_{};  ///< Of the expanded names: most words are passed over by one look.
+    std::unordered_set<std::string_view> carrying_;  ///< Between whose brackets preprocessor lines come to stand.
+    std::array<bool, 128> firstLetters_{};           ///< Of the expanded names: most words are passed over by one look.
 };
 
 /// The macro that says in a text which definition of a chosen one holds, 1 for the first.

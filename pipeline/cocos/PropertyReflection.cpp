@@ -63,6 +63,9 @@ int packed(const Value& sampler, const char* key, const std::vector<const char*>
     return usual;
 }
 
+/// No property, but what the editor is told about all of them.
+constexpr std::string_view kOfAll = "__metadata__";
+
 class PropertyReflection {
 public:
     PropertyReflection(const Value& properties, const UniformTypes& uniforms)
@@ -71,7 +74,8 @@ public:
     Value run() {
         Value all = Value::makeObject();
         for (const Member& member : properties_.members())
-            if (member.value.isObject()) all.set(member.key, property(member.key, member.value));
+            if (member.value.isObject() && member.key != kOfAll)
+                all.set(member.key, property(member.key, member.value));
         for (const Fed& fed : fed_) merge(all, fed);
         return all;
     }

@@ -47,6 +47,29 @@ TEST(CocosMacroArgument, TheMacroItselfInItsArgument) {
     bench.compile({{"USE_B", "1"}});
 }
 
+TEST(CocosMacroArgument, WhatIsCalledWithTheArgumentIsWrittenOutToo) {
+    CocosBench bench;
+    bench.fragment("#define ADD(a, b) (a + b)\n#define ALIAS ADD\n#define OUTER(x) ALIAS(x, ADD(x, 1.0))\n" + kColor +
+                   "void main() { float y = OUTER(\n#if USE_A\n  2.0\n#else\n  3.0\n#endif\n  ); color = vec4(y); }\n");
+    bench.compile();
+    bench.compile({{"USE_A", "1"}});
+    bench.fragment("#define TWO \\\n (1.0 \\\n#if USE_A \\\n + 1.0 \\\n#endif \\\n )\n#define SAME(x) (x)\n" +
+                   std::string("#define ALIAS SAME\n") + kColor + "void main() { color = vec4(ALIAS(SAME(TWO))); }\n");
+    bench.compile({{"USE_A", "1"}});
+}
+
+TEST(CocosMacroArgument, AChosenMacroWithinAnotherInItsArgument) {
+    CocosBench bench;
+    bench.fragment(
+        "#if USE_A\n#define ONE(a) (a)\n#else\n#define ONE(a) (a * 2.0)\n#endif\n#if USE_B\n"
+        "#define OTHER(a) ONE(a)\n#else\n#define OTHER(a) a\n#endif\n" +
+        kColor +
+        "void main() { float y = ONE(OTHER(\n#if USE_C\n  1.0\n#else\n  2.0\n#endif\n  )); "
+        "color = vec4(y); }\n");
+    for (const auto* a : {"0", "1"})
+        for (const auto* b : {"0", "1"}) bench.compile({{"USE_A", a}, {"USE_B", b}});
+}
+
 TEST(CocosMacroArgument, FunctionsAreLeftAlone) {
     CocosBench bench;
     const std::string text =

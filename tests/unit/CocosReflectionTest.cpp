@@ -184,6 +184,11 @@ TEST(CocosReflection, TargetsGetHandlesAndAMergedDefault) {
                          "albedoMap":{"type":28,"value":"grey"}})");
 }
 
+TEST(CocosReflection, WhatTheEditorIsToldOfAllIsNoProperty) {
+    expectProperties("__metadata__: { editor: { visible: false } }\nmainColor: { value: [1, 1, 1, 1] }\n",
+                     R"({"mainColor":{"value":[1,1,1,1],"type":16}})");
+}
+
 TEST(CocosReflection, AnAliasOfAPropertyIsNoNewDefault) {
     expectProperties("mainColor: { value: [1, 1, 1, 1] }\ncolor: { target: mainColor, linear: true }\n",
                      R"({"mainColor":{"value":[1,1,1,1],"type":16},
