@@ -1,4 +1,4 @@
-// Near names by edit distance, for messages that suggest what was meant.
+// Near names, for messages that suggest what was meant: by edit distance, else by how they begin.
 #include "core/Text.h"
 
 #include <algorithm>
@@ -9,6 +9,7 @@ namespace {
 
 constexpr std::size_t kMaxNameLength = 100;  // longer names are not misspelt words
 constexpr std::size_t kMaxListedNames = 60;
+constexpr std::size_t kLeastBeginning = 3;  // fewer letters begin too many names
 
 /// Insertions, deletions, replacements and swaps of neighbours that turn one word into the other
 /// (optimal string alignment; Wagner and Fischer 1974 with the transposition of Damerau 1964).
@@ -53,6 +54,10 @@ std::vector<std::string> nearestNames(std::string_view name, const std::vector<s
         const std::size_t distance = editDistance(wanted, lowerCase(candidate));
         const bool sharesLetters = distance < longer;
         if (distance <= allowed && sharesLetters) near.emplace_back(distance, &candidate);
+    }
+    if (near.empty() && wanted.size() >= kLeastBeginning) {
+        for (const std::string& candidate : candidates)
+            if (lowerCase(candidate).starts_with(wanted)) near.emplace_back(0, &candidate);
     }
     std::stable_sort(near.begin(), near.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
     std::vector<std::string> names;

@@ -7,8 +7,8 @@
 
 namespace crevice {
 
-/// Candidates whose edit distance to `name` is at most a third of its length (at least 2), nearest first, at most
-/// `limit`.
+/// Candidates whose edit distance to `name` is at most a third of its length (at least 2), nearest first, else those
+/// that begin with it; at most `limit`.
 std::vector<std::string> nearestNames(std::string_view name, const std::vector<std::string>& candidates,
                                       std::size_t limit = 3);
 

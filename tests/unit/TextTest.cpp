@@ -21,6 +21,15 @@ TEST(Text, NearestNamesPutsTheNearestFirst) {
     EXPECT_TRUE(nearestNames("", kKeys).empty());
 }
 
+TEST(Text, BeginningsOfNamesAreNearWhereNothingElseIs) {
+    const std::vector<std::string> classes = {"ShadowStage", "SsaoStage", "SsaoBlurStage", "SsaoX"};
+    EXPECT_EQ(nearestNames("shadow", classes), std::vector<std::string>{"ShadowStage"});
+    EXPECT_EQ(nearestNames("Ssao", classes), std::vector<std::string>{"SsaoX"});
+    EXPECT_EQ(nearestNames("SsaoB", classes, 1), std::vector<std::string>{"SsaoX"}) << "edits go first";
+    EXPECT_TRUE(nearestNames("Sh", classes).empty()) << "too short";
+    EXPECT_TRUE(nearestNames("Stage", classes).empty()) << "an end is no beginning";
+}
+
 TEST(Text, NearestNamesKeepsTheLimit) {
     EXPECT_EQ(nearestNames("aaaa", {"aaab", "aaac", "aaad", "aaae"}, 2), (std::vector<std::string>{"aaab", "aaac"}));
 }

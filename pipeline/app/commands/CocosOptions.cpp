@@ -52,7 +52,7 @@ void addCocosProjectOptions(CLI::App& command, CocosProjectOptions& options) {
     command.add_option("--chunks", options.chunks, "Folder of chunks that is searched first (repeatable)")
         ->type_name("DIR")
         ->allow_extra_args(false);
-    command.add_option("--cocos-version", options.version, "Version of a .rpp, such as 3.3.1; default found out")
+    command.add_option("--cocos-version", options.version, "Version of a .rpp, such as 3.3.1; default as the engine or project says")
         ->type_name("VERSION");
 }
 
