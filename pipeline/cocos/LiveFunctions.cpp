@@ -165,6 +165,7 @@ private:
             } else if (const std::string_view word = leadingName(statement.substr(at)); !word.empty()) {
                 const auto it = index_.find(word);
                 if (it != index_.end() && it->second >= functionEnd_) return kAnything;
+                if (word == "return" || word == "else" || word == "do") return kAnything;  // of a body in branches
                 last = word;
                 lineBegins = false;
                 ++words;

@@ -88,6 +88,15 @@ TEST(CocosLiveFunctions, ConditionsThatCrossKeepTheirFunctionAlone) {
         EXPECT_THAT(dead(gone + body + main), ElementsAre("gone", "after")) << body;
 }
 
+TEST(CocosLiveFunctions, NamesBehindABodyThatABranchEnds) {
+    // The head is not understood, so its body is none: `return helper(x);` in its second branch is no prototype.
+    const std::string text =
+        "float helper(float x) { return x; }\nfloat gone() { return 1.0; }\n#if A\nfloat f(float x)\n#else\n"
+        "highp float f(float x)\n#endif\n{\n#if B\n return 1.0; }\n#else\n return helper(x); }\n#endif\nvoid main() "
+        "{}\n";
+    EXPECT_THAT(dead(text), ElementsAre("gone"));
+}
+
 TEST(CocosLiveFunctions, SemicolonsThatEndNothingAreLeftOut) {
     CocosBench bench;
     bench.fragment(
