@@ -99,7 +99,7 @@ TEST_F(AoBackFaces, HolesOfCutOutMaterialsAreOpen) {
 TEST_F(AoBackFaces, ThinBoxDarkensTheWallBehindLessAndThickOneAsMuch) {
     // A bar before a wall: its true depth is far from the constant thickness, to either side.
     const auto darkness = [&](float depth, bool backFaces) {
-        // So small a constant is that of all things: none is taken for one without a back.
+        // A constant between the two depths.
         Options options{{"quality", "ultra"}, {"thickness", "0.25"}};
         if (backFaces)
             loadBackFaces(1, options);
@@ -128,8 +128,7 @@ TEST_F(AoBackFaces, ThinBoxDarkensTheWallBehindLessAndThickOneAsMuch) {
 }
 
 TEST_F(AoBackFaces, KnownBacksLeaveNothingToTheConstantThickness) {
-    // Whether things of unknown depth are thin or partly without a back (from a thickness of 0.25 on) is nothing to a
-    // bar of known depth.
+    // How deep things of unknown depth are, and how many of them have no back, is nothing to a bar of known depth.
     std::vector<double> darkness;
     for (const char* thickness : {"0.25", "0.5"}) {
         loadBackFaces(1, {{"quality", "ultra"}, {"thickness", thickness}});

@@ -124,7 +124,7 @@ std::vector<AoCase> listAoCases(const AssetRoots& roots, const AoCaseChoice& cho
     std::vector<std::string> variants = choice.variants;
     const bool isAll = variants.empty() && choice.techniques.empty() && choice.qualities.empty();
     if (isAll) {
-        variants.push_back("vbao high thickness=0.25");  // what its help names for thin things
+        variants.push_back("vbao high thickness=0.15");  // what its help names for thin things
         if (findOption(desc, "guard")) {
             for (const char* technique : {"gtao", "vbao"})
                 for (const char* quality : {"high", "ultra"})
