@@ -39,7 +39,14 @@ render "${ao[@]}" -p ao-deferred -o "$maps/ao.png" --dump cc_ssaoBlurMap="$maps/
 "$crevice" reference default -q -o "$maps/truth.exr" --size 320x180 --samples 256 --radius 0.6 --measure "$maps/ao.exr" \
   --depth "$maps/depth.exr" --heat $out/view-error.png >/dev/null
 rm -r "$maps"
+fence=(tests/bench/rail-fence.scene.json --size 320x180 --eye=-1.6,0.75,-1 --target=-1.9,0.6,-1.9 --fov 50 --near 0.02)
 pictures=$(mktemp --suffix=.png)
+thin() { render "${fence[@]}" -p ao-deferred -o "$pictures" --dump cc_ssaoBlurMap=$out/thin-$1.png "${@:2}"; }
+thin gtao --option ao=gtao
+thin vbao
+thin vbao-015 --option thickness=0.15
+thin vbao-backs --option backFaces=true
+"$crevice" reference "${fence[@]}" -q -o $out/thin-truth.png --samples 256 >/dev/null
 for technique in crytek cocos learnopengl; do
   for quality in high article; do
     suffix=; [ $quality = article ] && suffix=-article

@@ -43,9 +43,9 @@ TEST_F(AoPillar, TheBitmaskDarkensTheFloorBehindItAsBeforeIt) {
         const double horizon = brighterBehind("gtao", resolution);
         RecordProperty(resolution,
                        std::to_string(byDefault) + ' ' + std::to_string(asDeep) + ' ' + std::to_string(horizon));
-        // The pillar is half a radius deep, as most things are by default.
+        // The pillar is half a radius deep.
         EXPECT_NEAR(asDeep, 0, 0.03) << resolution;
-        EXPECT_NEAR(byDefault, 0, 0.06) << resolution;
+        EXPECT_NEAR(byDefault, 0, 0.03) << resolution;
         // What everybody complains of: horizons take the pillar for a wall without end.
         EXPECT_LT(horizon, byDefault) << resolution;
         EXPECT_LT(horizon, -0.03) << resolution << ": more than the mask may have";

@@ -131,7 +131,10 @@ std::vector<AoCase> listAoCases(const AssetRoots& roots, const AoCaseChoice& cho
                     variants.push_back(fmt::format("{} {} guard=0", technique, quality));
         }
         variants.push_back("vbao high guard=10");
-        if (findOption(desc, "backFaces")) variants.push_back("vbao ultra guard=25 backFaces=true");
+        if (findOption(desc, "backFaces")) {
+            variants.push_back("vbao high backFaces=true");
+            variants.push_back("vbao ultra guard=25 backFaces=true");
+        }
     }
     for (const std::string& variant : variants) cases.push_back(parseAoCase(roots, variant));
     if (isAll) {
