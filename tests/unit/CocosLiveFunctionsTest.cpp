@@ -92,8 +92,8 @@ TEST(CocosLiveFunctions, NamesBehindABodyThatABranchEnds) {
     // The head is not understood, so its body is none: `return helper(x);` in its second branch is no prototype.
     const std::string text =
         "float helper(float x) { return x; }\nfloat gone() { return 1.0; }\n#if A\nfloat f(float x)\n#else\n"
-        "highp float f(float x)\n#endif\n{\n#if B\n return 1.0; }\n#else\n return helper(x); }\n#endif\nvoid main() "
-        "{}\n";
+        "highp float f(float x)\n#endif\n{\n#if B\n return 1.0; }\n#else\n return helper(x); }\n#endif\n"
+        "uniform vec4 u;\nvoid main() {}\n";
     EXPECT_THAT(dead(text), ElementsAre("gone"));
 }
 
