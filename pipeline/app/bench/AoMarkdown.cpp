@@ -87,46 +87,68 @@ std::vector<std::string> barCells(const MapMetrics& m) {
     return {show(m.ofWhite), show(m.correlation), show(m.skill), show(m.bias)};
 }
 
-/// What the screen cannot know, view by view, beside what the two best techniques make of it; last the mean of the
-/// views that judge. A bar above what the floor reaches asks for what no map of one depth can know.
-std::string floorTable(const AoResults& results) {
-    using Cells = std::map<std::string, MapMetrics>;
-    std::map<std::string, Cells> views;
-    std::vector<std::string> order;
-    std::map<std::string, std::pair<MapMetrics, double>> sums;
+/// Sums of maps' figures over views; the bias without its sign.
+struct FigureSum {
+    MapMetrics sum;
+    double count = 0;
+
+    void add(const MapMetrics& metrics) {
+        sum.ofWhite += metrics.ofWhite;
+        sum.correlation += metrics.correlation;
+        sum.skill += metrics.skill;
+        sum.bias += std::abs(metrics.bias);
+        ++count;
+    }
+    MapMetrics mean() const {
+        MapMetrics mean;
+        mean.ofWhite = sum.ofWhite / count;
+        mean.correlation = sum.correlation / count;
+        mean.skill = sum.skill / count;
+        mean.bias = sum.bias / count;
+        return mean;
+    }
+};
+
+/// One row of the floor's table: maps by the name of what made them, the heightfield's as "floor".
+struct FloorRow {
+    std::string view;
+    std::map<std::string, MapMetrics> maps;
+};
+
+/// Views in the order of the splits; last the mean of the views that judge.
+std::vector<FloorRow> floorRows(const AoResults& results) {
+    std::vector<FloorRow> rows;
+    std::map<std::string, FigureSum> sums;
     for (const AoSplit& split : results.splits) {
         if (split.quality != "high" || split.white <= 0) continue;
         const std::string view = fmt::format("{} {} ({})", split.scene, split.view, split.set);
-        if (!views.contains(view)) order.push_back(view);
-        for (const auto& [name, metrics] : Cells{{"floor", split.floor}, {split.technique, split.map}}) {
-            const bool isNew = views[view].emplace(name, metrics).second;
-            if (!isNew || split.kind != "room" || split.set != "evaluation") continue;
-            auto& [sum, count] = sums[name];
-            sum.ofWhite += metrics.ofWhite;
-            sum.correlation += metrics.correlation;
-            sum.skill += metrics.skill;
-            sum.bias += std::abs(metrics.bias);
-            ++count;
+        auto row = std::find_if(rows.begin(), rows.end(), [&](const FloorRow& other) { return other.view == view; });
+        if (row == rows.end()) row = rows.insert(rows.end(), {view, {}});
+        for (const auto& [name, metrics] :
+             std::map<std::string, MapMetrics>{{"floor", split.floor}, {split.technique, split.map}}) {
+            const bool isNew = row->maps.emplace(name, metrics).second;
+            if (isNew && split.kind == "room" && split.set == "evaluation") sums[name].add(metrics);
         }
     }
-    const std::string mean = "**mean of the rooms (evaluation)**, bias absolute";
-    for (auto& [name, sum] : sums) {
-        MapMetrics& m = views[mean][name];
-        m.ofWhite = sum.first.ofWhite / sum.second;
-        m.correlation = sum.first.correlation / sum.second;
-        m.skill = sum.first.skill / sum.second;
-        m.bias = sum.first.bias / sum.second;
-    }
-    if (!sums.empty()) order.push_back(mean);
+    if (sums.empty()) return rows;
+    FloorRow mean{"**mean of the rooms (evaluation)**, bias absolute", {}};
+    for (const auto& [name, sum] : sums) mean.maps.emplace(name, sum.mean());
+    rows.push_back(std::move(mean));
+    return rows;
+}
+
+/// What the screen cannot know, view by view, beside what the two best techniques make of it. A bar above what the
+/// floor reaches asks for what no map of one depth can know.
+std::string floorTable(const AoResults& results) {
     TextTable table;
     table.add({"view", "heightfield", "r", "skill", "bias", "gtao high", "r", "skill", "bias", "vbao high", "r",
                "skill", "bias"});
-    for (const std::string& view : order) {
-        std::vector<std::string> cells = {view};
+    for (const FloorRow& row : floorRows(results)) {
+        std::vector<std::string> cells = {row.view};
         for (const char* name : {"floor", "gtao", "vbao"}) {
-            const bool isKnown = views[view].contains(name);
-            std::vector<std::string> four(4, "–");
-            if (isKnown) four = barCells(views[view][name]);
+            const auto known = row.maps.find(name);
+            const std::vector<std::string> four =
+                known == row.maps.end() ? std::vector<std::string>(4, "–") : barCells(known->second);
             cells.insert(cells.end(), four.begin(), four.end());
         }
         table.add(std::move(cells));
