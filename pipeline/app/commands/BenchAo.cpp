@@ -1,5 +1,6 @@
 // `crevice bench-ao`: every ambient occlusion technique against ray-traced truth and against the clock.
 #include <chrono>
+#include <cmath>
 #include <filesystem>
 #include <memory>
 #include <system_error>
@@ -130,6 +131,12 @@ std::string commandLine(const BenchAoOptions& options) {
     return text + (options.noStudy ? " --no-study" : "") + " -o FOLDER";
 }
 
+/// A dash where nothing was timed.
+std::string shareText(const AoMean& mean) {
+    if (!std::isfinite(mean.cpuShare)) return "–";
+    return fmt::format("{:.3f}{}", mean.cpuShare, mean.onFront ? " *" : "");
+}
+
 /// What the terminal shows of it.
 std::string summary(const AoResults& results) {
     std::string text;
@@ -141,7 +148,7 @@ std::string summary(const AoResults& results) {
             table.add({m.label, fmt::format("{}", m.rows), fmt::format("{:g}", m.tapsPerPixel),
                        fmt::format("{:.4f}", m.rmse), fmt::format("{:.3f}", m.ofWhite),
                        fmt::format("{:.3f}", m.correlation), fmt::format("{:.3f}", m.skill),
-                       fmt::format("{:.3f}", m.absBias), fmt::format("{:.3f}{}", m.cpuShare, m.onFront ? " *" : "")});
+                       fmt::format("{:.3f}", m.absBias), shareText(m)});
         }
         text += fmt::format("{}\n{}\n", group.title(), table.text(2));
     }
