@@ -9,6 +9,8 @@
 
 #include <fmt/format.h>
 
+#include "core/Controls.h"
+
 namespace crevice {
 namespace {
 
@@ -32,15 +34,6 @@ std::string placePrefix(const SourceLoc& where) {
     if (where.line <= 0) return where.file + ": ";
     if (where.column <= 0) return fmt::format("{}:{}: ", where.file, where.line);
     return fmt::format("{}:{}:{}: ", where.file, where.line, where.column);
-}
-
-/// Input may hold terminal escapes; a message must not replay them.
-std::string withoutControls(std::string text) {
-    for (char& c : text) {
-        const auto byte = static_cast<unsigned char>(c);
-        if ((byte < 0x20 && c != '\n' && c != '\t') || byte == 0x7f) c = '?';
-    }
-    return text;
 }
 
 /// Whether the bytes are as many as the first one promises (RFC 3629, 3).

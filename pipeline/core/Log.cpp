@@ -6,6 +6,8 @@
 #include <spdlog/logger.h>
 #include <spdlog/sinks/stdout_sinks.h>
 
+#include "core/Controls.h"
+
 namespace crevice {
 namespace {
 
@@ -57,7 +59,7 @@ Log::Log(LogLevel detail, Sink sink) : detail_(detail), sink_(std::move(sink)) {
 
 void Log::write(LogLevel level, std::string_view message) const {
     if (level > detail_ || !sink_) return;
-    sink_(level, prefixOf(level) + std::string(message));
+    sink_(level, prefixOf(level) + withoutControls(std::string(message)));
 }
 
 void Log::write(const Problems& problems) const {

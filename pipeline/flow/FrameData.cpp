@@ -124,6 +124,18 @@ float distanceTo(const Aabb& box, const glm::vec3& point) {
     return box.empty ? 0.0f : glm::distance(point, glm::clamp(point, box.min, box.max));
 }
 
+/// Whether a lamp can light anything in the box, as glTF's lights do: within its range and, of a spot, its cone, which
+/// is tried against the sphere around the box.
+bool reaches(const Light& lamp, const Aabb& box) {
+    if (lamp.range > 0 && distanceTo(box, lamp.position) >= lamp.range) return false;
+    if (lamp.type != LightType::Spot || box.empty) return true;
+    const glm::vec3 toCentre = 0.5f * (box.min + box.max) - lamp.position;
+    const float distance = glm::length(toCentre), radius = 0.5f * box.diagonal();
+    if (distance <= radius) return true;
+    const float cosine = glm::clamp(glm::dot(glm::normalize(lamp.direction), toCentre) / distance, -1.0f, 1.0f);
+    return std::acos(cosine) < lamp.outerAngle + std::asin(radius / distance);
+}
+
 }  // namespace
 
 float exposureFromEv(float ev) { return 1.0f / (1.2f * std::exp2(ev)); }
@@ -136,6 +148,7 @@ float autoExposureEv(const Scene& scene) {
     float illuminance = 0;
     for (const Light& light : scene.lights) {
         const float power = luminance(light.color) * light.intensity;
+        if (light.type != LightType::Directional && !reaches(light, bounds)) continue;
         const float distance = reach + distanceTo(bounds, light.position);
         illuminance += light.type == LightType::Directional ? power * 0.70710678f : power / (distance * distance);
     }

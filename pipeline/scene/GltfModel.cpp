@@ -218,6 +218,7 @@ std::string textOr(const Value& object, std::string_view key, const std::string&
 
 std::string shortened(std::string text) {
     constexpr std::size_t kMost = 200;
+    std::replace(text.begin(), text.end(), '\n', ' ');  // a name of two lines would forge a message of its own
     if (text.size() <= kMost) return text;
     std::size_t end = kMost;
     while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xc0) == 0x80) --end;  // not inside a UTF-8 sequence

@@ -9,6 +9,7 @@
 #include "core/Text.h"
 #include "scene/SceneFields.h"
 #include "scene/SceneFileLookup.h"
+#include "scene/ScenePlaces.h"
 
 namespace crevice {
 
@@ -21,7 +22,8 @@ constexpr int kMaxGroupDepth = 16;
 /// Reads one document into a scene, collecting problems.
 class SceneReader {
 public:
-    SceneReader(fs::path folder, const LoadOptions& options) : folder_(std::move(folder)), options_(options) {}
+    SceneReader(fs::path folder, const LoadOptions& options)
+        : folder_(std::move(folder)), options_(options), places_(options.limits.maxInstances) {}
 
     Scene read(const Value& document) {
         ParamReader reader(document, "the scene", problems_);
@@ -167,7 +169,8 @@ private:
             const std::size_t problemsBefore = problems_.all().size();
             const PrimitiveFields primitive = readPrimitive(reader, value, what);
             const int material = findMaterial(reader.take("material"));
-            if (problems_.all().size() == problemsBefore) addInstances(primitive, material, name, worlds);
+            if (problems_.all().size() == problemsBefore)
+                addInstances(primitive, material, name, worlds, value.where());
         }
         reader.finish();
     }
@@ -209,34 +212,14 @@ private:
         if (!list) instances.push_back(glm::mat4(1));
 
         const glm::uvec3 count(glm::max(array.count, glm::vec3(1)));
-        // An empty list is no reason to walk over a thousand million cells.
-        const double total = std::max(1.0, double(parents.size())) * count.x * count.y * count.z *
-                             std::max(1.0, double(instances.size()));
-        if (total > double(options_.limits.maxInstances)) {
-            problems_.error(value.where(),
-                            fmt::format("{} stands {} times, more than {}", what, total, options_.limits.maxInstances),
-                            "lower \"count\" of its arrays, or its \"instances\"");
-            return {};
-        }
-        const std::vector<glm::mat4> cells = cellsOf(array.step, count);
+        const double total = double(parents.size()) * count.x * count.y * count.z * double(instances.size());
+        if (!places_.take(total, value, what, problems_)) return {};
+        const std::vector<glm::mat4> cells = arrayCells(array.step, count);
         std::vector<glm::mat4> worlds;
         for (const glm::mat4& parent : parents)
             for (const glm::mat4& cell : cells)
                 for (const glm::mat4& instance : instances) worlds.push_back(parent * own * cell * instance);
         return worlds;
-    }
-
-    // x runs fastest.
-    static std::vector<glm::mat4> cellsOf(const glm::vec3& step, const glm::uvec3& count) {
-        std::vector<glm::mat4> cells;
-        for (unsigned z = 0; z < count.z; ++z)
-            for (unsigned y = 0; y < count.y; ++y)
-                for (unsigned x = 0; x < count.x; ++x) {
-                    PlacementFields cell;
-                    cell.position = step * glm::vec3(x, y, z);
-                    cells.push_back(cell.matrix());
-                }
-        return cells;
     }
 
     // [x, y, z], or an object with position, rotation and scale.
@@ -287,9 +270,9 @@ private:
     }
 
     void addInstances(const PrimitiveFields& primitive, int material, const std::string& name,
-                      const std::vector<glm::mat4>& worlds) {
+                      const std::vector<glm::mat4>& worlds, const SourceLoc& where) {
         if (scene_.instances.size() + worlds.size() > options_.limits.maxInstances) {
-            problems_.error({}, fmt::format("the scene has more than {} instances", options_.limits.maxInstances),
+            problems_.error(where, fmt::format("the scene has more than {} instances", options_.limits.maxInstances),
                             "lower \"count\" of its arrays, or " + raiseLimit("instances"));
             return;
         }
@@ -388,6 +371,7 @@ private:
     std::map<std::string, int> ownMaterials_;
     std::map<std::string, int> meshes_;
     std::size_t vertexCount_ = 0;  ///< Of the primitives' meshes.
+    PlaceBudget places_;
     int defaultMaterial_ = -1;
 };
 

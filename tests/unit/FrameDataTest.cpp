@@ -197,6 +197,17 @@ TEST(FrameData, AutomaticExposureCountsLampsByTheSceneSize) {
     EXPECT_NEAR(whiteAt(scene, 20 / ((reach + 5) * (reach + 5))), 0.8f, 1e-5f);
     scene.lights[0].position = scene.lights[1].position = 0.9f * corner;
     EXPECT_NEAR(whiteAt(scene, 20 / (reach * reach)), 0.8f, 1e-5f);
+    // One whose light ends before the scene does not count, nor does a spot that looks away from it.
+    scene.lights[0].position = scene.lights[1].position = corner + glm::vec3(3, 4, 0);
+    scene.lights[0].range = 4.9f;
+    EXPECT_NEAR(whiteAt(scene, 10 / ((reach + 5) * (reach + 5))), 0.8f, 1e-5f);
+    scene.lights[0].range = 5.1f;
+    scene.lights[1].direction = glm::normalize(glm::vec3(3, 4, 0));
+    EXPECT_NEAR(whiteAt(scene, 10 / ((reach + 5) * (reach + 5))), 0.8f, 1e-5f);
+    scene.lights[1].direction *= -1.0f;
+    EXPECT_NEAR(whiteAt(scene, 20 / ((reach + 5) * (reach + 5))), 0.8f, 1e-5f);
+    scene.lights[0].range = 0;
+    scene.lights[0].position = 0.9f * corner;
     // Luminance, not a channel's value: green counts most.
     scene.lights.resize(1);
     scene.lights[0].color = {0, 1, 0};
