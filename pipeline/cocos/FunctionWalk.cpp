@@ -9,8 +9,6 @@
 namespace crevice::cocos {
 namespace {
 
-constexpr int kMaxAliasDepth = 4;
-
 /// The name that ends in front of `at`, over blanks.
 std::string_view nameBefore(std::string_view text, std::size_t at) {
     while (at > 0 && isBlank(text[at - 1])) --at;
@@ -39,6 +37,13 @@ bool isStorage(std::string_view word) {
     return word == "uniform" || word == "buffer" || word == "in" || word == "out" || word == "struct" ||
            word == "attribute" || word == "varying" || word == "shared" || word == "layout" || word == "return" ||
            word == "else";
+}
+
+bool mayBeType(std::string_view word) { return isNameStart(word.front()) && !isStorage(word); }
+
+bool isQualifier(std::string_view word) {
+    return word == "highp" || word == "mediump" || word == "lowp" || word == "precise" || word == "const" ||
+           word == "invariant";
 }
 
 }  // namespace
@@ -126,8 +131,9 @@ void FunctionWalk::begin() {
     const std::string_view type = name.empty() ? name : nameBefore(text_, offsetOf(name));
     if (type.empty() || offsetOf(type) < directiveEnd_) return;
     const std::string_view before = text_.substr(statementBegin_, offsetOf(type) - statementBegin_);
-    if (unfinished_ || definesInList_ || macros_.contains(name) || isStorage(name) || !isType(type, 0) ||
-        !allWords(before, [this](std::string_view word) { return isQualifier(word, 0); }))
+    if (unfinished_ || definesInList_ || macros_.contains(name) || isStorage(name) ||
+        !standsFor(mayBeType, types_, type, 0) ||
+        !allWords(before, [this](std::string_view word) { return standsFor(isQualifier, qualifiers_, word, 0); }))
         return;
     std::size_t start = statementBegin_;
     while (isBlank(text_[start])) ++start;
@@ -136,24 +142,18 @@ void FunctionWalk::begin() {
     isOpen_ = true;
 }
 
-bool FunctionWalk::isType(std::string_view word, int depth) const {
+/// True when a word is accepted or stands for accepted words alone. Each macro is read once at each depth: bodies of
+/// many words that name each other would be read again for every word.
+bool FunctionWalk::standsFor(Accepts accepts, Answers& answers, std::string_view word, std::size_t depth) {
     const auto macro = macros_.find(word);
-    if (macro == macros_.end()) return isNameStart(word.front()) && !isStorage(word);
-    return depth < kMaxAliasDepth &&
-           std::all_of(macro->second.begin(), macro->second.end(), [&](std::string_view body) {
-               return allWords(body, [&](std::string_view part) { return isType(part, depth + 1); });
-           });
-}
-
-bool FunctionWalk::isQualifier(std::string_view word, int depth) const {
-    const auto macro = macros_.find(word);
-    if (macro == macros_.end())
-        return word == "highp" || word == "mediump" || word == "lowp" || word == "precise" || word == "const" ||
-               word == "invariant";
-    return depth < kMaxAliasDepth &&
-           std::all_of(macro->second.begin(), macro->second.end(), [&](std::string_view body) {
-               return allWords(body, [&](std::string_view part) { return isQualifier(part, depth + 1); });
-           });
+    if (macro == macros_.end()) return accepts(word);
+    if (depth == answers.size()) return false;
+    const auto [answer, isNew] = answers[depth].try_emplace(macro->first, false);
+    if (!isNew) return answer->second;
+    const bool all = std::all_of(macro->second.begin(), macro->second.end(), [&](std::string_view body) {
+        return allWords(body, [&](std::string_view part) { return standsFor(accepts, answers, part, depth + 1); });
+    });
+    return answer->second = all;
 }
 
 /// A body ends. What ends in a branch goes on in the others: it is whole at their #endif.

@@ -1,7 +1,9 @@
 // Finds the functions of a GLSL text that still has its preprocessor lines.
 #pragma once
 
+#include <array>
 #include <string_view>
+#include <unordered_map>
 #include <vector>
 
 #include "cocos/LiveFunctions.h"
@@ -32,6 +34,10 @@ public:
     std::vector<std::size_t> emptyStatements;  ///< Each a ';' behind a function's body or another ';'.
 
 private:
+    static constexpr std::size_t kMaxAliasDepth = 4;
+    using Accepts = bool (*)(std::string_view word);
+    using Answers = std::array<std::unordered_map<std::string_view, bool>, kMaxAliasDepth>;
+
     struct Depth {
         int brace = 0, paren = 0;
         bool operator==(const Depth&) const = default;
@@ -43,8 +49,7 @@ private:
     bool takeDirective();
     void noteUnfinished(std::size_t directive, bool turns);
     void finishStatement();
-    bool isType(std::string_view word, int depth) const;
-    bool isQualifier(std::string_view word, int depth) const;
+    bool standsFor(Accepts accepts, Answers& answers, std::string_view word, std::size_t depth);
     std::size_t offsetOf(std::string_view part) const { return static_cast<std::size_t>(part.data() - text_.data()); }
 
     std::string_view text_;
@@ -61,6 +66,7 @@ private:
     bool ended_ = false;       ///< What stood before was a function's body or a statement.
     bool unfinished_ = false;  ///< A preprocessor line stood in the middle of the statement.
     bool definesInList_ = false;
+    Answers types_, qualifiers_;  ///< What is known of macros, by the depth at which they were met.
 };
 
 }  // namespace crevice::cocos

@@ -9,6 +9,13 @@ namespace {
 constexpr int kMaxPasses = 16;                    ///< Macros in macros' brackets in macros' brackets.
 constexpr std::size_t kMaxLookedBack = 8u << 20;  ///< Bytes, for the brackets around the calls of a stage.
 
+/// The name or number that begins at `at`.
+std::string_view namePartsAt(std::string_view text, std::size_t at) {
+    std::size_t end = at;
+    while (end < text.size() && isNamePart(text[end])) ++end;
+    return text.substr(at, end - at);
+}
+
 }  // namespace
 
 MacroTable::MacroTable(const SourceText& program, const Resolve& resolve, std::size_t maxSources) {
@@ -47,25 +54,33 @@ void MacroTable::chooseExpanded() {
     for (const SourceText* source : sources_) carryAll(source->splitCalls);
     if (expanded_.empty()) return;
     for (int pass = 0; pass < kMaxPasses; ++pass) {
-        while (expandCallers()) continue;
+        expandCallers();
         chooseChosen();
         if (!expandAround()) break;
     }
 }
 
-bool MacroTable::calls(const MacroDefinition& macro) const {
-    return std::any_of(macro.body.begin(), macro.body.end(),
-                       [&](const auto& part) { return findCall(part.text, 0) != std::string_view::npos; });
+void MacroTable::findCallers() {
+    for (const MacroDefinition* macro : all_)
+        for (const auto& part : macro->body)
+            for (std::size_t at = 0; at < part.text.size();) {
+                const std::string_view word = namePartsAt(part.text, at);
+                at += std::max<std::size_t>(1, word.size());
+                if (word.empty() || !byName_.contains(word)) continue;
+                auto& callers = callers_[word];
+                if (callers.empty() || callers.back() != macro) callers.push_back(macro);
+            }
 }
 
-bool MacroTable::expandCallers() {
-    bool grown = false;
-    for (const MacroDefinition* macro : all_) {
-        if (expanded_.contains(macro->name) || !calls(*macro)) continue;
-        expand(macro->name);
-        grown = true;
+/// Each name is followed once, whatever the order of the definitions.
+void MacroTable::expandCallers() {
+    if (callers_.empty()) findCallers();
+    while (!unfollowed_.empty()) {
+        const auto callers = callers_.find(unfollowed_.back());
+        unfollowed_.pop_back();
+        if (callers == callers_.end()) continue;
+        for (const MacroDefinition* macro : callers->second) expand(macro->name);
     }
-    return grown;
 }
 
 /// Whoever is called within a carrying macro may be given what it carries, and so may a macro that only names another.
@@ -175,7 +190,8 @@ void MacroTable::chooseChosen() {
 }
 
 void MacroTable::expand(std::string_view name) {
-    expanded_.insert(name);
+    if (!expanded_.insert(name).second) return;
+    unfollowed_.push_back(name);
     firstLetters_[static_cast<unsigned char>(name.front()) & 127u] = true;
 }
 

@@ -35,19 +35,21 @@ public:
 private:
     void visit(const SourceText& source, const Resolve& resolve, std::size_t maxSources);
     void chooseExpanded();
-    bool expandCallers();
+    void findCallers();
+    void expandCallers();
     bool expandAround();
     bool carryAll(const std::unordered_set<std::string_view>& names);
     void chooseChosen();
     void expand(std::string_view name);
-    bool calls(const MacroDefinition& macro) const;
     std::unordered_set<std::string_view> findSplitting() const;
 
     std::vector<const MacroDefinition*> all_;
     std::vector<const SourceText*> sources_;
     std::unordered_set<const SourceText*> seen_;
     std::unordered_map<std::string_view, std::vector<const MacroDefinition*>> byName_;
+    std::unordered_map<std::string_view, std::vector<const MacroDefinition*>> callers_;  ///< In whose body it stands.
     std::unordered_set<std::string_view> expanded_, chosen_;
+    std::vector<std::string_view> unfollowed_;       ///< Expanded names whose callers are to be expanded too.
     std::unordered_set<std::string_view> carrying_;  ///< Between whose brackets preprocessor lines come to stand.
     std::array<bool, 128> firstLetters_{};           ///< Of the expanded names: most words are passed over by one look.
 };

@@ -178,6 +178,21 @@ TEST(CocosHostile, LinksToDevicesAndFoldersAreNoFiles) {
                 HasSubstr("endless.mtl"));
 }
 
+TEST(CocosHostile, NamesOfNamesOfMacrosAreFollowedOnce) {
+    // Each name stands in front of what it names: reading all of them again and again would find one at a time.
+    CocosBench bench;
+    const auto chain = [](int count) {
+        std::string text;
+        for (int i = 0; i < count; ++i) text += "#define A" + std::to_string(i) + " A" + std::to_string(i + 1) + "\n";
+        return text + "#define A" + std::to_string(count) + " out\nlayout(location = 0) A0 vec4 color;\n" +
+               "void main() { color = vec4(1.0); }\n";
+    };
+    bench.fragment(chain(60'000));
+    EXPECT_THAT(bench.problem().message, HasSubstr("expands without end"));
+    bench.fragment(chain(30));
+    EXPECT_EQ(bench.compileError(), "");
+}
+
 TEST(CocosHostile, ManyPassesAndPropertiesAreReadOnce) {
     std::string header = "  techniques:\n  - passes:\n";
     for (int i = 0; i < 2000; ++i) header += "    - { vert: vs, frag: fs, propertyIndex: 0 }\n";

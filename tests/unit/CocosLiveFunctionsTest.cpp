@@ -169,6 +169,29 @@ TEST(CocosLiveFunctions, NamesFromOutsideMayBeAny) {
                 IsEmpty());
 }
 
+TEST(CocosLiveFunctions, MacrosOfManyWordsAreReadOnce) {
+    const auto define = [](const std::string& name, const std::string& word) {
+        std::string line = "#define " + name;
+        for (int i = 0; i < 5000; ++i) line += " " + word;
+        return line + "\n";
+    };
+    std::string types;
+    for (const char* line : {"#define T U\n", "#define U V\n", "#define V float\n"})
+        for (int i = 0; i < 5000; ++i) types += line;
+    const std::string text = types + define("A", "B") + define("B", "C") + define("C", "highp") + define("X", "Y") +
+                             define("Y", "Z") + define("Z", "highp uniform") +
+                             "A float a() { return 1.0; }\nT b() { return 1.0; }\nX float c() { return 1.0; }\n"
+                             "void main() {}\n";
+    EXPECT_THAT(dead(text), ElementsAre("a", "b"));  // 'X' leads to a word that no function begins with
+}
+
+TEST(CocosLiveFunctions, MacrosMayStandForTypesOverFourSteps) {
+    // A is met as the fourth step first, where its own are too many, and then as the first one.
+    EXPECT_THAT(dead("#define D C\n#define C B\n#define B A\n#define A T\n#define T float\n"
+                     "D a() { return 1.0; }\nA b() { return 1.0; }\nC c() { return 1.0; }\nvoid main() {}\n"),
+                ElementsAre("b", "c"));
+}
+
 TEST(CocosLiveFunctions, BothTheEntryAndMainAreFollowed) {
     EXPECT_THAT(dead(kHelper + "float gone() { return 1.0; }\n#if 0\nvoid main() { helper(1.0); }\n#endif\n"
                                "vec4 frag() { return vec4(1.0); }\n",
