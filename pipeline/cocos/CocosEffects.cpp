@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <deque>
 #include <optional>
+#include <unordered_set>
 
 #include "cocos/BlockRules.h"
 #include "cocos/ChunkLibrary.h"
@@ -13,6 +14,7 @@
 #include "cocos/Fingerprint.h"
 #include "cocos/Flattener.h"
 #include "cocos/Numbering.h"
+#include "cocos/SourceText.h"
 #include "cocos/StageAnalysis.h"
 #include "cocos/TakeOver.h"
 #include "core/Files.h"
@@ -52,6 +54,28 @@ void addEntry(StageText& text, const ProgramReference& program, const SourceLoc&
     text.conditionOf.push_back(0);
 }
 
+/// Macros with options that other stages describe and this one does not; nothing where its text names none of them.
+std::vector<DefineInfo> describedElsewhere(const std::vector<const StageText*>& stages, std::size_t own) {
+    std::vector<DefineInfo> found;
+    std::unordered_set<std::string_view> known;
+    for (const StageMacro& macro : stages[own]->macros)
+        if (macro.info.described) known.insert(macro.info.name);
+    for (std::size_t i = 0; i < stages.size(); ++i)
+        for (const StageMacro& macro : stages[i]->macros)
+            if (i != own && macro.info.described && !macro.info.options.empty() && known.insert(macro.info.name).second)
+                found.push_back(macro.info);
+    std::unordered_set<std::string_view> names;
+    for (const DefineInfo& info : found) names.insert(info.name);
+    bool named = false;
+    const std::string_view text = found.empty() ? std::string_view() : stages[own]->flat.text;
+    for (std::size_t at = 0; at < text.size() && !named;) {
+        const std::string_view word = leadingName(text.substr(at));
+        named = names.contains(word);
+        at += std::max<std::size_t>(1, word.size());
+    }
+    return named ? found : std::vector<DefineInfo>{};
+}
+
 /// A text that asks how many registers its uniforms take gets the number that Cocos' compiler counts.
 void addUniformVectors(const std::vector<StageText>& texts, const std::vector<StageInterface>& interfaces,
                        Defines& values) {
@@ -84,14 +108,19 @@ struct CocosEffects::State {
     std::deque<std::shared_ptr<Kept>> kept;
     std::optional<std::string> fingerprint;
 
-    std::shared_ptr<Kept> keep(const EffectAsset& effect, const StagePart& part, Problems& problems);
+    std::shared_ptr<Kept> keep(const EffectAsset& effect, const StagePart& part, const std::vector<DefineInfo>& others,
+                               Problems& problems);
     std::vector<std::shared_ptr<Kept>> keepAll(const EffectAsset& effect, const EffectPass& pass, Problems& problems);
 };
 
-/// A stage's text, flattened or remembered; nothing where it has errors.
+/// A stage's text, flattened or remembered; nothing where it has errors. `others` are macros of the other stages whose
+/// options it names.
 std::shared_ptr<CocosEffects::State::Kept> CocosEffects::State::keep(const EffectAsset& effect, const StagePart& part,
+                                                                     const std::vector<DefineInfo>& others,
                                                                      Problems& problems) {
     std::string key = fmt::format("{}\n{}\n{}", effect.path, part.reference, static_cast<int>(part.stage));
+    for (const DefineInfo& info : others)
+        key += fmt::format("\n{} {} {}", info.name, info.defaultValue, fmt::join(info.options, " "));
     for (const auto& present : kept)
         if (present->key == key) return present;
     Problems own;
@@ -99,7 +128,7 @@ std::shared_ptr<CocosEffects::State::Kept> CocosEffects::State::keep(const Effec
     try {
         const ProgramReference reference = parseProgram(part.reference);
         stage->text = analyzeStage(part.stage, flattenStage(effect, reference.program, part.where, chunks, {}, own),
-                                   reference.entry, own);
+                                   reference.entry, others, own);
         addEntry(stage->text, reference, part.where, own);
     } catch (const Error& error) {
         own.add(error);
@@ -118,7 +147,17 @@ std::vector<std::shared_ptr<CocosEffects::State::Kept>> CocosEffects::State::kee
                                                                                      Problems& problems) {
     std::vector<std::shared_ptr<Kept>> stages;
     Problems own;
-    for (const StagePart& part : partsOf(pass)) stages.push_back(keep(effect, part, own));
+    const std::vector<StagePart> parts = partsOf(pass);
+    for (const StagePart& part : parts) stages.push_back(keep(effect, part, {}, own));
+    std::vector<const StageText*> texts;
+    for (const auto& stage : stages)
+        if (stage != nullptr) texts.push_back(&stage->text);
+    const auto alone = stages;  // what `texts` points into
+    Problems again;             // what was said already, but for errors
+    for (std::size_t i = 0; i < texts.size() && texts.size() == parts.size(); ++i)
+        if (const auto others = describedElsewhere(texts, i); !others.empty())
+            stages[i] = keep(effect, parts[i], others, again);
+    if (again.hasErrors()) takeOver(again, own);
     takeOver(own, problems);
     if (own.hasErrors()) stages.clear();
     return stages;

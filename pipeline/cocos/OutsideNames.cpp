@@ -36,6 +36,12 @@ ConditionNames namesOf(std::string_view condition) {
 
 }  // namespace
 
+void addWordsOf(const DefineInfo& info, MacroBodies& bodies) {
+    auto& words = bodies[info.name];
+    words.insert(words.end(), info.options.begin(), info.options.end());
+    words.push_back(info.defaultValue);
+}
+
 void readOutsideNames(const std::vector<FlatDirective>& directives, std::string_view text, const Names& defined,
                       MacroBodies& bodies, LiveHints& hints) {
     Names described, open;
@@ -46,9 +52,7 @@ void readOutsideNames(const std::vector<FlatDirective>& directives, std::string_
         if (directive.kind != LineKind::Pragma) continue;
         const DefineInfo& info = directive.meta->info;
         described.insert(info.name);
-        auto& words = bodies[info.name];
-        words.insert(words.end(), info.options.begin(), info.options.end());
-        words.push_back(info.defaultValue);
+        addWordsOf(info, bodies);
         if (info.type == DefineType::String && info.options.empty()) open.insert(info.name);
     }
     Names tested;

@@ -10,6 +10,9 @@
 
 namespace crevice::cocos {
 
+/// The options and the default of a description.
+void addWordsOf(const DefineInfo& info, MacroBodies& bodies);
+
 /// Adds options and defaults to `bodies`. Into `hints` go the macros that no description holds to options or numbers
 /// and no comparison makes a number, and the lines of `#pragma define`. `defined` are the names that the text defines
 /// itself: nobody else gives them a value.

@@ -26,9 +26,9 @@ public:
     Analysis(StageText& out, std::vector<FlatDirective> directives, Problems& problems)
         : out_(out), directives_(std::move(directives)), problems_(problems) {}
 
-    void run(std::string_view entry) {
+    void run(std::string_view entry, const std::vector<DefineInfo>& others) {
         collectDefinitions();
-        findDead(entry);
+        findDead(entry, others);
         out_.conditionOf.assign(out_.flat.lines.size(), 0);
         for (const FlatDirective& directive : directives_) read(directive);
         fillTo(out_.flat.lines.size());
@@ -67,13 +67,15 @@ private:
         return behind < text.size() && (text[behind] == ' ' || text[behind] == '\t');
     }
 
-    void findDead(std::string_view entry) {
+    void findDead(std::string_view entry, const std::vector<DefineInfo>& others) {
         MacroBodies macros;
         for (const auto& [name, definitions] : definitions_)
             for (const MacroDefinition* macro : definitions)
                 for (const auto& part : macro->body) macros[name].emplace_back(part.text);
         LiveHints hints;
         readOutsideNames(directives_, out_.flat.text, visible_, macros, hints);
+        for (const DefineInfo& info : others)
+            if (!visible_.contains(info.name)) addWordsOf(info, macros);
         hints.foreign = out_.stage == kFragmentBit
                             ? std::vector<std::string_view>{"gl_Position", "gl_VertexIndex", "gl_InstanceIndex"}
                             : std::vector<std::string_view>{"discard", "dFdx", "dFdy", "fwidth", "gl_FragCoord"};
@@ -361,13 +363,14 @@ void inferNumber(StageMacro& macro) {
     macro.inferred = true;
 }
 
-StageText analyzeStage(ShaderStageBits stage, Flattened flattened, std::string_view entry, Problems& problems) {
+StageText analyzeStage(ShaderStageBits stage, Flattened flattened, std::string_view entry,
+                       const std::vector<DefineInfo>& others, Problems& problems) {
     StageText out;
     out.stage = stage;
     out.flat = std::move(flattened.flat);
     out.marks = std::move(flattened.marks);
     out.extensions = std::move(flattened.extensions);
-    Analysis(out, std::move(flattened.directives), problems).run(entry.empty() ? "main" : entry);
+    Analysis(out, std::move(flattened.directives), problems).run(entry.empty() ? "main" : entry, others);
     return out;
 }
 

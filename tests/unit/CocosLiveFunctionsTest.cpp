@@ -252,6 +252,30 @@ TEST(CocosLiveFunctions, OptionsNameThem) {
     bench.compile({{"tone", "toneA"}});
 }
 
+TEST(CocosLiveFunctions, OptionsOfTheOtherStageNameThem) {
+    CocosBench bench;
+    const auto write = [&](const std::string& name, const std::string& call) {
+        bench.effect("#pragma define-meta " + name + " options([fa, fb])\nvoid main() { gl_Position = vec4(0.0); }\n",
+                     "#define APPLY(f) f(1.0)\nfloat fa(float x) { return x; }\n"
+                     "float fb(float x) { return x + 1.0; }\nfloat gone() { return missing; }\n"
+                     "layout(location = 0) out vec4 color;\nvoid main() { color = vec4(" +
+                         call + "); }\n");
+    };
+    const auto expect = [&](const std::string& name) {
+        EXPECT_THAT(bench.fragmentText().flat.text, Not(HasSubstr("gone")));
+        EXPECT_EQ(bench.compileError({{name, "fa"}}), "");
+        EXPECT_EQ(bench.compileError({{name, "fb"}}), "");
+    };
+    write("FUNC", "APPLY(FUNC)");
+    expect("FUNC");
+    write("FUNC", "FUNC(1.0)");
+    expect("FUNC");
+    write("func", "func(1.0)");
+    expect("func");
+    write("FUNC", "1.0");  // named nowhere: its options are not alive
+    EXPECT_THAT(bench.fragmentText().flat.text, Not(HasSubstr("fa")));
+}
+
 TEST(CocosLiveFunctions, TheirMacrosAreNotTheShaders) {
     CocosBench bench;
     bench.fragment(
