@@ -125,11 +125,9 @@ std::string plainSyntax(const std::string& text) {
 
 std::string adviceFor(std::string_view text) {
     if (text == "undeclared identifier") return "declare it, or include the chunk that does";
-    if (contains(text, "cannot convert")) {
-        return contains(text, "vec")
-                   ? "build the type by its name, or take the components you mean: vec4(v, 1.0), v.rgb"
-                   : "GLSL turns int into float and nothing else: write the conversion";
-    }
+    if (contains(text, "function return type") || contains(text, "function's return type"))
+        return "return a value of the type that the function declares";
+    if (contains(text, "cannot convert")) return conversionAdvice(std::string(text));
     if (contains(text, "constructor") || contains(text, "construction"))
         return "give as many components as the type has";
     if (contains(text, "no matching overloaded function"))
@@ -202,8 +200,15 @@ std::string plainLink(std::string text) {
     return text;
 }
 
-/// glslang's own name of what the line does; no word of the program.
-bool isOperation(const std::string& word) { return word == "assign" || word == "constructor" || word == "="; }
+/// glslang's own name of what the line does, and no word of the program: 'assign' and 'constructor' may be either.
+bool isOperation(const Message& message, std::string_view line) {
+    if (message.word == "=") return true;
+    if (message.word != "assign" && message.word != "constructor") return false;
+    for (const char* text : {"cannot convert", "l-value required", "not enough data", "wrong operand"})
+        if (contains(message.text, text)) return true;
+    const auto tokens = tokenizeGlsl(line);
+    return std::none_of(tokens.begin(), tokens.end(), [&](const auto& token) { return token.text == message.word; });
+}
 
 Problem describe(const Message& message, const StageSource& source, int line) {
     if (contains(message.text + message.word, "non-opaque uniforms outside a block")) {
@@ -226,7 +231,7 @@ Problem describe(const Message& message, const StageSource& source, int line) {
     Problem problem{Severity::Error, placeOf(source, line, message.word),
                     "GLSL: " + (syntax ? plainSyntax(message.text) : message.text),
                     syntax ? "a ';' or a bracket may be missing in front of it" : adviceFor(message.text)};
-    if (!message.word.empty() && !isOperation(message.word))
+    if (!message.word.empty() && !isOperation(message, lineOf(source, line)))
         problem.message = fmt::format("GLSL: '{}': {}", message.word, message.text);
     if (const std::string old = adviceForOldFunctions(lineOf(source, line)); !old.empty()) {
         problem.help = old;

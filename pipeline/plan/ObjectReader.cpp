@@ -203,9 +203,25 @@ std::optional<int> ObjectReader::integer(std::string_view key) const {
 
 namespace {
 
-bool checkTextKey(const Value& object, const char* key, const std::string& what, Problems& problems) {
+/// Reports the unknown keys of an object; whether one of them looks like `key`.
+bool reportMisspelt(const Value& object, std::string_view key, const KeyTable& table, const std::string& what,
+                    Problems& problems) {
+    bool misspelt = false;
+    for (const Member& member : object.members()) {
+        if (table.find(member.key)) continue;
+        problems.error(member.keyLoc, fmt::format("unknown key '{}' in {}", member.key, what),
+                       didYouMean(member.key, table.names(), "keys"));
+        const std::vector<std::string> near = nearestNames(member.key, table.names());
+        misspelt = misspelt || std::find(near.begin(), near.end(), key) != near.end();
+    }
+    return misspelt;
+}
+
+bool checkTextKey(const Value& object, const char* key, const KeyTable& table, const std::string& what,
+                  Problems& problems) {
     const Value* value = object.find(key);
     if (!value) {
+        if (reportMisspelt(object, key, table, what, problems)) return false;
         problems.error(object.where(), fmt::format("missing key '{}' in {}", key, what),
                        fmt::format("add \"{}\" with a name", key));
         return false;
@@ -227,10 +243,11 @@ bool checkIsObject(const Value& value, const std::string& what, Problems& proble
 }  // namespace
 
 bool checkStageShape(const Value& stage, const std::string& what, Problems& problems) {
-    if (!checkIsObject(stage, what, problems) || !checkTextKey(stage, "stage", what, problems)) return false;
+    if (!checkIsObject(stage, what, problems) || !checkTextKey(stage, "stage", stageKeys(), what, problems))
+        return false;
     const Value* name = stage.find("name");
     if (!name) return true;
-    if (!checkTextKey(stage, "name", what, problems)) return false;
+    if (!checkTextKey(stage, "name", stageKeys(), what, problems)) return false;
     if (isPlainName(name->string())) return true;
     problems.error(name->where(), fmt::format("'{}' cannot name a stage", name->string()),
                    "use letters, digits, '_' and '-', beginning with a letter or '_'");
@@ -238,7 +255,7 @@ bool checkStageShape(const Value& stage, const std::string& what, Problems& prob
 }
 
 bool checkFlowShape(const Value& flow, const std::string& what, Problems& problems) {
-    if (!checkIsObject(flow, what, problems) || !checkTextKey(flow, "flow", what, problems)) return false;
+    if (!checkIsObject(flow, what, problems) || !checkTextKey(flow, "flow", flowKeys(), what, problems)) return false;
     const Value* stages = flow.find("stages");
     if (!stages || stages->isArray()) return true;
     problems.error(

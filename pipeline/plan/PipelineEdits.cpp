@@ -95,7 +95,7 @@ void Editor::insert(const Value& edit) {
     const ObjectReader reader(edit, insertKeys(), "an insert", problems_);
     const Value* inserted = reader.get("insert");
     if (!inserted) return;
-    if (inserted->find("flow")) {
+    if (inserted->find("flow") || (inserted->find("stages") && !inserted->find("stage"))) {
         insertFlow(reader, *inserted);
     } else if (checkStageShape(*inserted, "an inserted stage", problems_)) {
         insertStage(reader, *inserted);

@@ -60,6 +60,16 @@ TEST(PipelineError, MissingKeys) {
         "flow 'F' has no stages");
 }
 
+TEST(PipelineError, AMisspeltKeyIsNotMissingAsWell) {
+    expectOne(problemsOf(document("", R"( }, { "stag": "FullscreenStage")")),
+              "unknown key 'stag' in stage 2 of flow 'Main' | did you mean 'stage'");
+    expectOne(problemsOf(R"({ "output": "o", "targets": { "o": { "format": "R8" } },
+        "flows": [ { "flow": "F", "stages": [ { "stage": "S" } ] }, { "flo": "x", "stages": [] } ] })"),
+              "unknown key 'flo' in flow 2 | did you mean 'flow'");
+    expectOne(problemsOf(document("", "", R"(, "edits": [ { "insert": { "flo": "x", "stages": [] } } ])")),
+              "unknown key 'flo' in an inserted flow | did you mean 'flow'");
+}
+
 TEST(PipelineError, WrongTypes) {
     expectOne(problemsOf(document(R"(, "scale": "1")", "")),
               "'scale' of target 'out' must be a number, found a string");

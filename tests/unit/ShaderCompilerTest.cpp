@@ -217,6 +217,33 @@ TEST(ShaderCompiler, GlslErrorsComeBackAtTheAuthorsLine) {
     EXPECT_NE(formatProblem(problem).find("return x + heigth;"), std::string::npos);
 }
 
+/// The problem of a fragment program with these lines in front of and in main().
+Problem problemOfLines(const std::string& before, const std::string& within) {
+    EffectBench bench;
+    bench.fullscreen(std::string(kOut) + before + "\nvoid main() {\n  color = vec4(1.0);\n  " + within + "\n}\n");
+    return bench.problem();
+}
+
+TEST(ShaderCompiler, NamesThatGlslangGivesToOperationsAreKept) {
+    const Problem undeclared = problemOfLines("float assing = 1.0;", "float x = assign;");
+    EXPECT_EQ(undeclared.message, "GLSL: 'assign': undeclared identifier");
+    EXPECT_EQ(undeclared.help, "did you mean 'assing'?");
+    EXPECT_TRUE(problemOfLines("", "constructor(1.0);").message.starts_with("GLSL: 'constructor': no matching"));
+    EXPECT_EQ(problemOfLines("", "float assign = 1.0; float assign = 2.0;").message, "GLSL: 'assign': redefinition");
+    EXPECT_EQ(problemOfLines("", "color = vec3(1.0);").message, "GLSL: cannot convert from 'vec3' to 'vec4'");
+    EXPECT_EQ(problemOfLines("", "color = vec4(vec2(1.0));").message,
+              "GLSL: not enough data provided for construction");
+}
+
+TEST(ShaderCompiler, ConversionsOfStructsAndReturnValuesAreAdvisedUpon) {
+    const Problem conversion = problemOfLines("struct S { float a; vec2 b; };", "S s; float g = s;");
+    EXPECT_EQ(conversion.message, "GLSL: cannot convert from a struct to 'float'");
+    EXPECT_NE(conversion.help.find("take the member you mean"), std::string::npos) << conversion.help;
+    EXPECT_EQ(problemOfLines("", "float a[]; vec2 x = a;").message, "GLSL: cannot convert from 'float[]' to 'vec2'");
+    EXPECT_EQ(problemOfLines("vec4 f() { return vec3(1.0); }", "").help,
+              "return a value of the type that the function declares");
+}
+
 TEST(ShaderCompiler, ErrorsBehindIncludesAndInMacrosKeepTheirLine) {
     EffectBench bench;
     bench.chunk("long", "\n\n\n\n\n");
