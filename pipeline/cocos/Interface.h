@@ -91,8 +91,8 @@ struct StageInterface {
 /// tightly packed.
 StageInterface readInterface(const StageText& stage, Problems& problems);
 
-/// The text with `layout(…)` of the given numbers (one set per declaration) in every declaration. Lines stay lines.
-std::string writeLayouts(const StageText& stage, const StageInterface& interface,
-                         const std::vector<LayoutNumbers>& numbers);
+/// Writes `layout(…)` with the given numbers (one set per declaration) into every declaration. Lines stay lines; where
+/// conditions among the qualifiers of several names are written once for each, lines are added, in `flat.lines` too.
+void writeLayouts(StageText& stage, const StageInterface& interface, const std::vector<LayoutNumbers>& numbers);
 
 }  // namespace crevice::cocos

@@ -241,7 +241,7 @@ void numberStages(std::vector<StageText>& stages, const std::vector<StageInterfa
         std::vector<LayoutNumbers> written;
         for (const InterfaceDeclaration& declaration : interfaces[i].declarations)
             written.push_back(numbersOf(declaration, stages[i].stage, numbers, rebinding, options.subpassSamplers));
-        stages[i].flat.text = writeLayouts(stages[i], interfaces[i], written);
+        writeLayouts(stages[i], interfaces[i], written);
     }
 }
 

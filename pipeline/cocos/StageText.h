@@ -57,7 +57,7 @@ struct NumberingOptions {
 };
 
 /// Writes `layout(…)` with location, set and binding into every interface declaration of a pass' stages (vertex before
-/// fragment), in branches that are not taken too, and keeps the number of lines. The rules are those of Cocos'
+/// fragment), in branches that are not taken too, and keeps the lines' origins. The rules are those of Cocos'
 /// compiler: see docs/from-cocos.md.
 void numberStages(std::vector<StageText>& stages, const BindingMap& bindings, const NumberingOptions& options,
                   Problems& problems);
