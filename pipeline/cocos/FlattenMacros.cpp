@@ -15,13 +15,6 @@ constexpr std::size_t kMaxCopies = 16;         ///< Of a declaration with severa
 
 }  // namespace
 
-void Flattener::noteChoice(const MacroDefinition& macro, Origin origin) {
-    const std::size_t number = choices_.add(macro);
-    const std::string name = choiceOf(macro.name);
-    emitDirective("#undef " + name, origin, *macro.source);
-    emitDirective(fmt::format("#define {} {}", name, number), origin, *macro.source);
-}
-
 template <class Lines>
 std::size_t Flattener::expandLine(const Lines& lines, std::size_t at, Pending& pending) {
     std::size_t used = 1, from = 0;
@@ -78,8 +71,9 @@ std::size_t Flattener::expandLine(const Lines& lines, std::size_t at, Pending& p
             if (from < text.size() && text[from] == ';') ++from;  // It ended a call that is no statement now.
         }
     }
-    endedInDirective_ = endedInDirective_ && trimBlank(text.substr(from)).empty();
-    keep(text.size());
+    text = withoutSplice(text);
+    endedInDirective_ = endedInDirective_ && trimBlank(text.substr(std::min(from, text.size()))).empty();
+    if (from < text.size()) keep(text.size());
     return used;
 }
 
@@ -115,7 +109,7 @@ bool Flattener::visitCalls(std::string_view text, std::unordered_set<std::string
                 for (const auto& part : macro.body) waiting.push_back(part.text);
             };
             if (isOpenChoice(call)) {
-                for (const MacroDefinition* choice : choices_.of(call)) enter(*choice);
+                for (const auto& choice : choices_.of(call)) enter(*choice.macro);
             } else if (const MacroDefinition* macro = definitionOf(call)) {
                 enter(*macro);
             }
@@ -138,7 +132,8 @@ bool Flattener::addOpenChoices(std::string_view text, std::vector<std::string_vi
 
 bool Flattener::isHeadChoice(std::string_view name) {
     const auto& choices = choices_.of(name);
-    return std::any_of(choices.begin(), choices.end(), [&](const MacroDefinition* macro) {
+    return std::any_of(choices.begin(), choices.end(), [&](const auto& choice) {
+        const MacroDefinition* macro = choice.macro;
         return macro->declares || (!macro->bearsDirectives && macro->body.size() == 1 &&
                                    table_->findCall(macro->body[0].text, 0) != std::string_view::npos);
     });
@@ -192,21 +187,25 @@ std::string Flattener::takeHead(Pending& pending) {
 
 template <class Write>
 void Flattener::writeEach(std::string_view name, Origin origin, Write write) {
-    const std::vector<const MacroDefinition*> choices = choices_.of(name);
+    const auto choices = choices_.possible(name, places_);
+    const bool sure = choices_.isSure(name, places_);
     const MacroDefinition* const latest = latest_[name];
     choices_.take(name);
     const std::size_t included = included_.size();
     std::vector<const SourceText*> ofCopies;
-    for (std::size_t i = 0; i < choices.size() && !stopped_; ++i) {
-        latest_[name] = choices[i];
-        emitDirective(fmt::format("#{} {} == {}", i == 0 ? "if" : "elif", choiceOf(name), i + 1), origin,
-                      *choices[i]->source);
-        write(*choices[i]);
+    for (std::size_t i = 0; i < choices.size() + (sure ? 0 : 1) && !stopped_; ++i) {
+        const bool defined = i < choices.size();
+        latest_[name] = defined ? choices[i].macro : nullptr;
+        const SourceText& source = *choices[defined ? i : 0].macro->source;
+        emitDirective(
+            defined ? fmt::format("#{} {} == {}", i == 0 ? "if" : "elif", choiceOf(name), choices[i].number) : "#else",
+            origin, source);
+        write(latest_[name]);
         const auto ofCopy = included_.cutTo(included);
         ofCopies.insert(ofCopies.end(), ofCopy.begin(), ofCopy.end());
     }
     for (const SourceText* one : ofCopies) included_.insert(*one);
-    emitDirective("#endif", origin, *choices.front()->source);
+    emitDirective("#endif", origin, *choices.front().macro->source);
     choices_.release();
     latest_[name] = latest;
 }
@@ -214,9 +213,10 @@ void Flattener::writeEach(std::string_view name, Origin origin, Write write) {
 std::size_t Flattener::expandDeclaration(std::string_view head, const StatementRest& rest, Origin origin,
                                          Pending& pending) {
     const std::string before = takeHead(pending);
-    writeEach(head, origin, [&](const MacroDefinition& macro) {
+    const SourceText& source = *choices_.of(head).front().macro->source;
+    writeEach(head, origin, [&](const MacroDefinition*) {
         Pending copy{before, origin};
-        writeLines(rest.lines, copy, *macro.source, false);
+        writeLines(rest.lines, copy, source, false);
         flush(copy);
     });
     endedInDirective_ = true;
@@ -226,10 +226,11 @@ std::size_t Flattener::expandDeclaration(std::string_view head, const StatementR
 template <class Lines>
 std::size_t Flattener::expandChoices(const Lines& lines, std::size_t at, std::string_view name, std::size_t& from,
                                      Pending& pending) {
-    const std::vector<const MacroDefinition*>& choices = choices_.of(name);
+    const auto choices = choices_.possible(name, places_);
     const Origin origin = lines.origin(at);
+    const std::size_t begin = from;
     CallArguments arguments;
-    if (std::any_of(choices.begin(), choices.end(), [](const auto* macro) { return macro->functionLike; }))
+    if (std::any_of(choices.begin(), choices.end(), [](const auto& one) { return one.macro->functionLike; }))
         arguments = readArguments(lines, at, from, limits_.maxArgument);
     if (arguments.unclosed) {
         reportUnclosed(name, callPlace_, problems_);
@@ -242,11 +243,22 @@ std::size_t Flattener::expandChoices(const Lines& lines, std::size_t at, std::st
     const std::size_t behind = std::min(text.find_first_not_of(" \t", from), text.size());
     const bool statement = behind < text.size() && text[behind] == ';' && beginsStatement(pending);
     if (statement) from = behind + 1;
+    BodyLines written;  // The call as it stands, for where no definition holds.
+    for (std::size_t line = at, column = begin; line <= last; ++line, column = 0) {
+        const std::size_t end = line == last ? from : lines.text(line).size();
+        written.texts.emplace_back(line == at ? name : std::string_view());
+        written.texts.back() += lines.text(line).substr(column, end - column);
+        written.origins.push_back(lines.origin(line));
+    }
     flush(pending);
     bool allEnd = true;
-    writeEach(name, origin, [&](const MacroDefinition& macro) {
+    writeEach(name, origin, [&](const MacroDefinition* macro) {
         Pending copy{{}, origin};
-        const bool ended = expandChoice(macro, arguments, origin, copy);
+        const bool ended = macro != nullptr && expandChoice(*macro, arguments, origin, copy);
+        if (macro == nullptr) {
+            writeLines(written, copy, *choices.front().macro->source, false);
+            return flush(copy);
+        }
         if (statement && !ended) copy.text += ';';
         allEnd = allEnd && (ended || statement);
         flush(copy);

@@ -52,13 +52,14 @@ private:
     std::size_t expandLine(const Lines& lines, std::size_t at, Pending& pending);
 
     bool isOpenChoice(std::string_view name) const {
-        return choices_.isOpen(name) && std::find(active_.begin(), active_.end(), name) == active_.end();
+        return choices_.isOpen(name, places_) && std::find(active_.begin(), active_.end(), name) == active_.end();
     }
 
-    const MacroDefinition* definitionOf(std::string_view name) const {
-        const auto latest = latest_.find(name);
-        return latest != latest_.end() ? latest->second : table_->find(name);
-    }
+    /// The definition that holds here; null where none does. Only `#pragma define` holds in front of its line.
+    const MacroDefinition* definitionOf(std::string_view name) const;
+
+    /// Ends what an #undef ends.
+    void undefine(std::string_view name, Origin origin, const SourceText& source);
 
     /// Follows `#define F G` to G: a call of F is one of G.
     std::string_view calledBy(std::string_view name) const;
@@ -87,7 +88,8 @@ private:
     /// True when the call that begins where `pending` ends begins a statement.
     bool beginsStatement(const Pending& pending) const;
 
-    /// Calls `write` for each definition of the macro, in branches of one condition.
+    /// Calls `write` for each definition of the macro, in branches of one condition, and with null for the branch that
+    /// remains where none may hold.
     template <class Write>
     void writeEach(std::string_view name, Origin origin, Write write);
 
@@ -133,6 +135,7 @@ private:
     const MacroTable* table_ = nullptr;
     std::unordered_map<std::string_view, const MacroDefinition*> latest_;  ///< As the text has defined them so far.
     MacroChoices choices_;
+    DefinedPlaces places_;
     IncludedTexts included_;
     std::vector<const SourceText*> stack_;
     std::vector<std::string_view> active_;  ///< Macros being expanded: they are not expanded within themselves.

@@ -44,7 +44,7 @@ std::size_t Flattener::emitLine(const SourceLines& lines, std::size_t at) {
     const SourceLine& line = lines.source.lines[at];
     if (line.kind == LineKind::Code) {
         if (table_->findCall(line.text, 0) == std::string_view::npos) {
-            push(line.text, lines.origin(at));
+            push(withoutSplice(line.text), lines.origin(at));
             return at + 1;
         }
         Pending pending;
@@ -74,6 +74,8 @@ void Flattener::emitDirective(std::string_view text, Origin origin, const Source
         FlatDirective note{directive.kind, lineCount(), out_.flat.text.size(), text.size(), nullptr, nullptr, origin};
         push(text, origin);
         if (isConditional(directive.kind) || directive.kind == LineKind::Define) out_.directives.push_back(note);
+        if (isConditional(directive.kind)) places_.follow(directive.kind, directive.rest);
+        if (directive.kind == LineKind::Undef) undefine(leadingName(trimBlank(directive.rest)), origin, source);
     }
 }
 
@@ -82,7 +84,9 @@ void Flattener::emitDefinition(const SourceLines& lines, std::size_t at, const M
     const Origin origin = lines.origin(at);
     const bool expanded = table_->isExpanded(macro.name);
     if (expanded && !macro.dead) latest_[macro.name] = &macro;
-    if (!macro.dead && table_->isChosen(macro.name)) noteChoice(macro, origin);
+    places_.define(macro.name);
+    if (!macro.dead && (table_->isChosen(macro.name) || (expanded && !macro.fromPragma && places_.isConditional())))
+        noteChoice(macro, origin);
     const FlatDirective note{line.kind, lineCount(), out_.flat.text.size(), 0, &macro, nullptr, origin};
     out_.directives.push_back(note);
     if (macro.fromPragma) return;  // Hoisted by the analysis.

@@ -28,7 +28,7 @@ bool ArgumentReader::read(std::string_view text, std::size_t& at) {
 }
 
 bool ArgumentReader::readLine(std::string_view text, LineKind kind) {
-    if (!isConditional(kind) || text.ends_with('\\')) return false;
+    if (!isConditional(kind)) return false;
     const bool opens = kind == LineKind::If || kind == LineKind::Ifdef || kind == LineKind::Ifndef;
     if (!opens && (branches_.empty() || branches_.back() != depth_)) return false;
     if (opens) branches_.push_back(depth_);

@@ -58,6 +58,24 @@ private:
     std::size_t bytes_ = 0;
 };
 
+/// A line of code without the backslash that joins it to the next, where it parts no word: the next may become a
+/// preprocessor line.
+inline std::string_view withoutSplice(std::string_view code) {
+    if (!code.ends_with('\\') || (code.size() > 1 && isNamePart(code[code.size() - 2]))) return code;
+    return code.substr(0, code.size() - 1);
+}
+
+/// A preprocessor line with the lines that continue it, without their backslashes; `line` becomes the last of them.
+template <class Lines>
+std::string joinContinued(const Lines& lines, std::size_t& line) {
+    std::string joined(lines.text(line));
+    while (joined.ends_with('\\') && line + 1 < lines.size()) {
+        joined.back() = ' ';
+        joined.append(lines.text(++line));
+    }
+    return joined;
+}
+
 /// Arguments behind a macro's name, which ends at column `at` of line `line`.
 template <class Lines>
 CallArguments readArguments(const Lines& lines, std::size_t line, std::size_t at, std::size_t maxBytes) {
@@ -66,7 +84,8 @@ CallArguments readArguments(const Lines& lines, std::size_t line, std::size_t at
     for (; line < lines.size(); ++line, at = 0) {
         const std::string_view text = lines.text(line);
         if (const LineKind kind = at == 0 ? readDirective(text).kind : LineKind::Code; kind != LineKind::Code) {
-            if (!reader.isOpen() || !reader.readLine(text, kind)) break;
+            const std::string whole = joinContinued(lines, line);
+            if (!reader.isOpen() || !reader.readLine(whole, kind)) break;
             continue;
         }
         if (!reader.isOpen()) {
