@@ -66,7 +66,7 @@ std::size_t Flattener::expandLine(const Lines& lines, std::size_t at, Pending& p
         }
         const bool begins = beginsStatement(pending);
         endedInDirective_ = expand(*macro, arguments.values, origin, pending);
-        if (endedInDirective_ && begins) {
+        if (endedInDirective_ && begins && isStatements(*macro)) {
             from = std::min(text.find_first_not_of(" \t", from), text.size());
             if (from < text.size() && text[from] == ';') ++from;  // It ended a call that is no statement now.
         }
@@ -75,6 +75,11 @@ std::size_t Flattener::expandLine(const Lines& lines, std::size_t at, Pending& p
     endedInDirective_ = endedInDirective_ && trimBlank(text.substr(std::min(from, text.size()))).empty();
     if (from < text.size()) keep(text.size());
     return used;
+}
+
+bool Flattener::isStatements(const MacroDefinition& macro) const {
+    return endsStatements(macro,
+                          [&](std::string_view text) { return table_->findCall(text, 0) != std::string_view::npos; });
 }
 
 std::string_view Flattener::calledBy(std::string_view name) const {
@@ -259,7 +264,7 @@ std::size_t Flattener::expandChoices(const Lines& lines, std::size_t at, std::st
             writeLines(written, copy, *choices.front().macro->source, false);
             return flush(copy);
         }
-        if (statement && !ended) copy.text += ';';
+        if (statement && !(ended && isStatements(*macro))) copy.text += ';';
         allEnd = allEnd && (ended || statement);
         flush(copy);
     });

@@ -61,6 +61,8 @@ private:
     /// Ends what an #undef ends.
     void undefine(std::string_view name, Origin origin, const SourceText& source);
 
+    /// endsStatements(), with the macros that are written out.
+    bool isStatements(const MacroDefinition& macro) const;
     /// Follows `#define F G` to G: a call of F is one of G.
     std::string_view calledBy(std::string_view name) const;
 

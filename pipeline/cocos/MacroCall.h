@@ -122,4 +122,20 @@ std::string joinDirective(const SourceLines& lines, std::size_t first, std::size
 std::string substitute(std::string_view body, const std::vector<std::string_view>& parameters,
                        const std::vector<std::string>& arguments);
 
+/// Whether a body is whole statements, in each of its branches: a `;` behind the call then ends nothing. callsOther:
+/// whether a line calls a macro that is written out as well; its own body decides there.
+template <class CallsOther>
+bool endsStatements(const MacroDefinition& macro, CallsOther callsOther) {
+    bool ends = true;
+    for (const MacroDefinition::BodyLine& line : macro.body) {
+        const std::string_view text = trimBlank(line.text);
+        if (text.empty()) continue;
+        if (text.front() != '#')
+            ends = text.back() == ';' || text.back() == '{' || text.back() == '}' || callsOther(text);
+        else if (!ends && !trimBlank(text.substr(1)).starts_with("if"))
+            return false;
+    }
+    return ends;
+}
+
 }  // namespace crevice::cocos

@@ -126,5 +126,15 @@ TEST(CocosMacroArgument, NestingAndOpenCallsEnd) {
     EXPECT_THAT(bench.problem().message, HasSubstr("is not closed"));
 }
 
+TEST(CocosMacroArgument, AStatementEndsBehindTheLastBranch) {
+    CocosBench bench;
+    bench.fragment(
+        "#define INIT(v) v = 1.0 \\\n#if USE_A \\\n + 1.0 \\\n#endif\n#define DONE(v) v = 1.0; \\\n#if USE_A "
+        "\\\n v += 1.0; \\\n#endif\n" +
+        kColor + "void main() { float x;\nINIT(x);\nDONE(x);\n color = vec4(x); }\n");
+    bench.compile();
+    bench.compile({{"USE_A", "1"}});
+}
+
 }  // namespace
 }  // namespace crevice::cocos
