@@ -16,19 +16,9 @@
 
 #include "app/Renderer.h"
 #include "scene/Primitives.h"
+#include "tests/SceneObjects.h"
 
 namespace crevice {
-
-inline void addObject(Scene& scene, Mesh mesh, const glm::mat4& world, int material = 0) {
-    updateBounds(mesh);
-    scene.meshes.push_back(std::move(mesh));
-    Instance instance;
-    instance.mesh = static_cast<int>(scene.meshes.size()) - 1;
-    instance.material = material;
-    instance.world = world;
-    instance.flipped = glm::determinant(glm::mat3(world)) < 0;
-    scene.instances.push_back(instance);
-}
 
 inline glm::mat4 translated(const glm::vec3& offset) { return glm::translate(glm::mat4(1), offset); }
 

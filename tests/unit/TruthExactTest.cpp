@@ -21,7 +21,7 @@ TEST(TruthExact, PlaneIsOpenAtAnyTilt) {
     for (const float degrees : {0.0f, 30.0f, 60.0f, 80.0f}) {
         const glm::mat4 turn = glm::rotate(glm::mat4(1), glm::radians(degrees), glm::vec3(0.6f, 0, 0.8f));
         Scene scene = whiteScene();
-        addMesh(scene, makePlane(glm::vec2(20), 4), turn);
+        addObject(scene, makePlane(glm::vec2(20), 4), turn);
         const RayScene rays(scene);
         for (const glm::vec3 place : {glm::vec3(0), glm::vec3(1.7f, 0, -3.1f), glm::vec3(5, 0, 5)}) {
             const glm::vec3 normal(turn * glm::vec4(0, 1, 0, 0)), at(turn * glm::vec4(place, 1));
@@ -107,7 +107,7 @@ TEST(TruthExact, GrooveWithARadius) {
 // A sphere is convex: only the floor below it occludes it. The floor ends 4000 radii away, at an angle of 5e-4.
 TEST(TruthExact, SphereAboveAFloor) {
     Scene scene = whiteScene();
-    addMesh(scene, makeSphere(1, 256), glm::translate(glm::mat4(1), glm::vec3(0, 1, 0)));
+    addObject(scene, makeSphere(1, 256), glm::translate(glm::mat4(1), glm::vec3(0, 1, 0)));
     addFloor(scene, 4000);
     for (const float c : {0.8f, 0.3f, 0.0f, -0.5f, -0.9f}) {
         const glm::vec3 normal(std::sqrt(1 - c * c), c, 0);
@@ -131,7 +131,7 @@ TEST(TruthExact, ThinSheet) {
 TEST(TruthExact, FloorBelowASphere) {
     const double r = 1;
     Scene scene = whiteScene();
-    addMesh(scene, makeSphere(float(r), 512), glm::translate(glm::mat4(1), glm::vec3(0, r, 0)));
+    addObject(scene, makeSphere(float(r), 512), glm::translate(glm::mat4(1), glm::vec3(0, r, 0)));
     const auto exact = [&](double x, double radius) {
         const double distance = std::hypot(x, r);
         const double c = (distance * distance + radius * radius - r * r) / (2 * distance * radius);
@@ -181,7 +181,7 @@ TEST(TruthExact, FloorOfAnOpenBox) {
 
 TEST(TruthExact, InsideOfASphereAndOfABowl) {
     Scene sphere = whiteScene();
-    addMesh(sphere, makeSphere(1, 512));
+    addObject(sphere, makeSphere(1, 512));
     Mesh half = makeSphere(1, 512);
     std::vector<std::uint32_t> kept;
     for (std::size_t i = 0; i < half.indices.size(); i += 3) {
@@ -191,7 +191,7 @@ TEST(TruthExact, InsideOfASphereAndOfABowl) {
     }
     half.indices = kept;
     Scene bowl = whiteScene();
-    addMesh(bowl, half);
+    addObject(bowl, half);
     // Points sit 1e-4 inside the facets, which lie up to 4e-5 inside the sphere.
     for (const glm::vec3 place : {glm::vec3(0.05f, -1, 0.02f), glm::vec3(0.8f, -0.6f, 0.1f)}) {
         const glm::vec3 outwards = glm::normalize(place);
@@ -204,7 +204,7 @@ TEST(TruthExact, InsideOfASphereAndOfABowl) {
 TEST(TruthExact, FloorBelowASlab) {
     Scene scene = whiteScene();
     const double height = 0.6;
-    addMesh(scene, makePlane(glm::vec2(10)), glm::translate(glm::mat4(1), glm::vec3(0, height, 0)));
+    addObject(scene, makePlane(glm::vec2(10)), glm::translate(glm::mat4(1), glm::vec3(0, height, 0)));
     expectOpenness(estimateOpenness(scene, pointAt({0, 0, 0}, {0, 1, 0}), 1), height * height, kOffsetError);
 }
 

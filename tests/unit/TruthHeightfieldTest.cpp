@@ -93,8 +93,8 @@ Scene corner(int walls) {
 TEST(TruthHeightfield, PlanesAreOpenAtAnyTilt) {
     for (const float degrees : {0.0f, 30.0f, 60.0f, 80.0f}) {
         Scene scene = whiteScene();
-        addMesh(scene, makePlane(glm::vec2(400), 4),
-                glm::rotate(glm::mat4(1), glm::radians(degrees), glm::vec3(0.6f, 0, 0.8f)));
+        addObject(scene, makePlane(glm::vec2(400), 4),
+                  glm::rotate(glm::mat4(1), glm::radians(degrees), glm::vec3(0.6f, 0, 0.8f)));
         const Camera camera = looking({0, 6, 0}, {0, 0, 0}, 14, {0, 0, -1});
         for (const Camera& view : {camera, parallel(camera, 1.5f)}) {
             const Seen seen(scene, view, {24, 18});
@@ -171,7 +171,7 @@ TEST(TruthHeightfield, InsideOfABowl) {
         if (top < rim + 1e-5f) kept.insert(kept.end(), bowl.indices.begin() + i, bowl.indices.begin() + i + 3);
     }
     bowl.indices = kept;
-    addMesh(scene, bowl);
+    addObject(scene, bowl);
     const Camera camera = looking({0, 12, 0}, {0, 0, 0}, 9.4f, {0, 0, -1});
     for (const Camera& view : {camera, parallel(camera, 2)}) {
         const Seen seen(scene, view, {192, 192});

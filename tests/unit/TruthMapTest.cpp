@@ -154,7 +154,7 @@ TEST(TruthMap, BacksAreSolidButOnlyTwoSidedOnesAreSeen) {
 TEST(TruthMap, MirroredAndScaledInstancesKeepTheirFronts) {
     for (const glm::vec3 scale : {glm::vec3(1, 1, 1), glm::vec3(-1, 1, 1), glm::vec3(2, 0.5f, -3)}) {
         Scene scene = whiteScene();
-        addMesh(scene, makeSphere(1, 64), glm::scale(glm::mat4(1), scale));
+        addObject(scene, makeSphere(1, 64), glm::scale(glm::mat4(1), scale));
         const RayScene rays(scene);
         const auto hit = rays.findVisible({{0.3f * scale.x, 9, 0.2f * scale.z}, {0, -1, 0}, 0, 20});
         ASSERT_TRUE(hit);

@@ -13,6 +13,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "scene/Primitives.h"
+#include "tests/SceneObjects.h"
 #include "truth/AmbientReference.h"
 
 namespace crevice::test {
@@ -21,17 +22,6 @@ inline Scene whiteScene() {
     Scene scene;
     scene.materials.emplace_back();
     return scene;
-}
-
-inline void addMesh(Scene& scene, Mesh mesh, const glm::mat4& world = glm::mat4(1), int material = 0) {
-    updateBounds(mesh);
-    scene.meshes.push_back(std::move(mesh));
-    Instance instance;
-    instance.mesh = static_cast<int>(scene.meshes.size()) - 1;
-    instance.material = material;
-    instance.world = world;
-    instance.flipped = glm::determinant(glm::mat3(world)) < 0;
-    scene.instances.push_back(instance);
 }
 
 /// Corners counter-clockwise seen from the front.
@@ -43,7 +33,7 @@ inline void addQuad(Scene& scene, const glm::vec3& a, const glm::vec3& b, const 
     const glm::vec3 corners[] = {a, b, c, d};
     for (int i = 0; i < 4; ++i) mesh.vertices.push_back({.position = corners[i], .normal = normal, .uv0 = uvs[i]});
     mesh.indices = {0, 1, 2, 0, 2, 3};
-    addMesh(scene, std::move(mesh), glm::mat4(1), material);
+    addObject(scene, std::move(mesh), glm::mat4(1), material);
 }
 
 /// Floor y = 0 over [-size, size]².
