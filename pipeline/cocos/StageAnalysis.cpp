@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <unordered_map>
 #include <unordered_set>
 #include <utility>
@@ -13,13 +12,12 @@
 #include "cocos/EngineMacros.h"
 #include "cocos/HoistedMacros.h"
 #include "cocos/LiveFunctions.h"
+#include "cocos/MacroAliases.h"
 #include "cocos/MacroWeight.h"
 #include "cocos/OutsideNames.h"
 
 namespace crevice::cocos {
 namespace {
-
-constexpr int kMaxAliasDepth = 16;
 
 class Analysis {
 public:
@@ -188,64 +186,37 @@ private:
     /// What the branch needs.
     std::vector<std::string> evaluate(const Directive& line) {
         if (line.kind == LineKind::If || line.kind == LineKind::Elif) {
-            const auto lookup = [this](std::string_view name, bool isValue) { return lookUp(name, isValue, 0); };
+            const auto lookup = [this](std::string_view name, bool isValue) { return lookUp(name, isValue); };
             if (readCondition(line.rest, lookup).tooDeep)
                 problems_.error({out_.flat.files[place_->origin.file], place_->origin.line},
                                 "the condition nests brackets deeper than 200", "write it with fewer brackets");
             KeptNames kept = keepNames(line.rest, lookup);
+            if (aliases_.exhausted())
+                problems_.error({out_.flat.files[place_->origin.file], place_->origin.line},
+                                fmt::format("the conditions lead to more than {} macros", MacroAliases::kMaxWords),
+                                "let them name what they ask for, not macros that stand for many others");
             for (const std::string& name : kept.compared)
                 if (const auto it = macroIndex_.find(name); it != macroIndex_.end())
                     inferNumber(out_.macros[it->second]);
             return std::move(kept.needs);
         }
         const std::string name(leadingName(line.rest));
-        if (name.empty() || !lookUp(name, false, 0).outside) return {};
+        if (name.empty() || !isOutside(name, false)) return {};
         return {line.kind == LineKind::Ifndef ? "!" + name : name};
     }
 
     /// A name in a condition. Macros of the text stand for what they are defined as; others are asked of the outside.
-    ConditionName lookUp(std::string_view name, bool isValue, int depth) {
+    ConditionName lookUp(std::string_view name, bool isValue) {
         ConditionName result;
-        if (name.starts_with("GL_") || name.starts_with("__") || name == "VULKAN") {
-            result.outside = false;
-            return result;
-        }
-        if (!visible_.contains(name)) {
-            mention(name, isValue);
-            return result;
-        }
-        const auto it = definitions_.find(name);
-        result.outside = false;
-        if (it == definitions_.end() || !isValue || depth >= kMaxAliasDepth) return result;
-        for (const MacroDefinition* macro : it->second) followAlias(*macro, it->second.size() == 1, depth, result);
-        return result;
+        result.outside = isOutside(name, isValue);
+        return result.outside || !isValue ? result : aliases_.follow(name);
     }
 
-    void followAlias(const MacroDefinition& macro, bool only, int depth, ConditionName& result) {
-        if (macro.functionLike || macro.body.empty()) return;
-        const std::string_view body = trimBlank(macro.body.front().text);
-        long long number = 0;
-        const auto [end, error] = std::from_chars(body.data(), body.data() + body.size(), number);
-        if (!body.empty() && error == std::errc{} && end == body.data() + body.size()) {
-            if (only) result.value = number;
-            return;
-        }
-        const auto add = [&](const std::string& alias) {
-            if (std::find(result.alias.begin(), result.alias.end(), alias) == result.alias.end())
-                result.alias.push_back(alias);
-        };
-        for (std::size_t i = 0; i < body.size();) {
-            if (!isNameStart(body[i])) {
-                i += 1;
-                continue;
-            }
-            const std::string_view word = leadingName(body.substr(i));
-            i += word.size();
-            const ConditionName inner =
-                word == "defined" ? ConditionName{{}, false, {}} : lookUp(word, true, depth + 1);
-            if (inner.outside) add(std::string(word));
-            for (const std::string& alias : inner.alias) add(alias);
-        }
+    bool isOutside(std::string_view name, bool isValue) {
+        if (name.starts_with("GL_") || name.starts_with("__") || name == "VULKAN" || visible_.contains(name))
+            return false;
+        mention(name, isValue);
+        return true;
     }
 
     DefineInfo* entry(std::string_view name) {
@@ -285,9 +256,10 @@ private:
 
     static std::vector<std::string> needsOf(const Frame& frame) {
         std::vector<std::string> needs;
+        std::unordered_set<std::string_view> known;
         for (const auto* part : {&frame.outer, &frame.earlier, &frame.current})
             for (const std::string& need : *part)
-                if (std::find(needs.begin(), needs.end(), need) == needs.end()) needs.push_back(need);
+                if (known.insert(need).second) needs.push_back(need);
         return needs;
     }
 
@@ -340,7 +312,8 @@ private:
     StageText& out_;
     std::vector<FlatDirective> directives_;
     Problems& problems_;
-    std::unordered_map<std::string_view, std::vector<const MacroDefinition*>> definitions_;
+    MacroDefinitions definitions_;
+    MacroAliases aliases_{definitions_, [this](std::string_view name) { return isOutside(name, true); }};
     std::unordered_set<std::string_view> inText_, visible_;
     std::unordered_map<std::string, std::size_t> macroIndex_;
     std::unordered_map<std::string, std::uint32_t> conditionIndex_;

@@ -193,6 +193,22 @@ TEST(CocosHostile, NamesOfNamesOfMacrosAreFollowedOnce) {
     EXPECT_EQ(bench.compileError(), "");
 }
 
+TEST(CocosHostile, ConditionsFollowEachMacroOnce) {
+    // Followed level by level, twelve names each, these would be 12 to the power of their depth.
+    std::string twelve;
+    for (int i = 0; i < 6; ++i) twelve += " COUNT OTHER";
+    CocosBench bench;
+    bench.fragment("#define COUNT" + twelve + "\n#define OTHER" + twelve + " USE_X\n#if COUNT\n#endif\n" +
+                   "void main() {}\n");
+    EXPECT_EQ(macroNames(bench.fragmentText()), std::vector<std::string>{"USE_X"});
+    std::string many = "#define LIST";
+    for (int i = 0; i < 20'000; ++i) many += " M" + std::to_string(i);
+    many += "\n";
+    for (int i = 0; i < 200; ++i) many += "#if LIST\n#endif\n";
+    bench.fragment(many + "void main() {}\n");
+    EXPECT_THAT(bench.problem().message, HasSubstr("the conditions lead to more than 1000000 macros"));
+}
+
 TEST(CocosHostile, ManyPassesAndPropertiesAreReadOnce) {
     std::string header = "  techniques:\n  - passes:\n";
     for (int i = 0; i < 2000; ++i) header += "    - { vert: vs, frag: fs, propertyIndex: 0 }\n";
