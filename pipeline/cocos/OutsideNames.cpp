@@ -2,9 +2,8 @@
 #include "cocos/OutsideNames.h"
 
 #include <algorithm>
-#include <string>
+#include <utility>
 
-#include "cocos/Conditions.h"
 #include "cocos/EngineMacros.h"
 
 namespace crevice::cocos {
@@ -12,24 +11,26 @@ namespace {
 
 using Names = std::unordered_set<std::string_view>;
 
-/// Of a condition's line: the names that it tests, and those that it compares.
+/// Of a condition's line: the names whose values it tests, and those that it only asks for.
 struct ConditionNames {
-    std::vector<std::string_view> tested;
-    std::vector<std::string> compared;
+    std::vector<std::string_view> tested, asked;
 };
 
 ConditionNames namesOf(std::string_view condition) {
     ConditionNames names;
     const Directive line = readDirective(condition);
     if (line.kind == LineKind::Ifdef || line.kind == LineKind::Ifndef) {
-        names.tested.push_back(leadingName(line.rest));
+        names.asked.push_back(leadingName(line.rest));
     } else if (line.kind == LineKind::If || line.kind == LineKind::Elif) {
+        bool asks = false;
         for (std::size_t at = 0; at < line.rest.size();) {
             const std::string_view word = leadingName(line.rest.substr(at));
-            if (!word.empty() && word != "defined") names.tested.push_back(word);
+            if (word == "defined")
+                asks = true;
+            else if (!word.empty())
+                (std::exchange(asks, false) ? names.asked : names.tested).push_back(word);
             at += std::max<std::size_t>(1, word.size());
         }
-        names.compared = keepNames(line.rest, [](std::string_view, bool) { return ConditionName{}; }).compared;
     }
     return names;
 }
@@ -45,7 +46,6 @@ void addWordsOf(const DefineInfo& info, MacroBodies& bodies) {
 void readOutsideNames(const std::vector<FlatDirective>& directives, std::string_view text, const Names& defined,
                       MacroBodies& bodies, LiveHints& hints) {
     Names described, open;
-    std::unordered_set<std::string> numbers;
     for (const FlatDirective& directive : directives) {
         if (directive.kind == LineKind::PragmaDefine && directive.macro != nullptr && !directive.macro->dead)
             hints.kept.push_back(directive.line);
@@ -55,16 +55,17 @@ void readOutsideNames(const std::vector<FlatDirective>& directives, std::string_
         addWordsOf(info, bodies);
         if (info.type == DefineType::String && info.options.empty()) open.insert(info.name);
     }
-    Names tested;
+    // What a condition takes the value of is a number: it names no function.
+    Names tested, asked;
     for (const FlatDirective& directive : directives) {
         if (!isConditional(directive.kind)) continue;
         const ConditionNames names = namesOf(text.substr(directive.offset, directive.length));
-        numbers.insert(names.compared.begin(), names.compared.end());
-        for (const std::string_view name : names.tested)
-            if (!name.empty() && !described.contains(name) && !engineConstants().contains(name)) tested.insert(name);
+        tested.insert(names.tested.begin(), names.tested.end());
+        asked.insert(names.asked.begin(), names.asked.end());
     }
-    for (const std::string_view name : tested)
-        if (!numbers.contains(std::string(name))) open.insert(name);
+    for (const std::string_view name : asked)
+        if (!name.empty() && !tested.contains(name) && !described.contains(name) && !engineConstants().contains(name))
+            open.insert(name);
     for (const std::string_view name : open)
         if (!defined.contains(name)) hints.open.push_back(name);
 }

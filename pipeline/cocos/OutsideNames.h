@@ -14,7 +14,7 @@ namespace crevice::cocos {
 void addWordsOf(const DefineInfo& info, MacroBodies& bodies);
 
 /// Adds options and defaults to `bodies`. Into `hints` go the macros that no description holds to options or numbers
-/// and no comparison makes a number, and the lines of `#pragma define`. `defined` are the names that the text defines
+/// and no condition takes for numbers, and the lines of `#pragma define`. `defined` are the names that the text defines
 /// itself: nobody else gives them a value.
 void readOutsideNames(const std::vector<FlatDirective>& directives, std::string_view text,
                       const std::unordered_set<std::string_view>& defined, MacroBodies& bodies, LiveHints& hints);

@@ -123,8 +123,8 @@ TEST(CocosLiveFunctions, WhatTheStageCannotHoldGoesWhenNobodyNamesIt) {
     CocosBench bench;
     bench.effect(
         "void clip(float v) { if (v < 0.0) discard; }\nfloat slope(float v) { return dFdx(v); }\n"
-        "float stays() { return 1.0; }\n#if USE_A\n#endif\n"
-        "void main() { gl_Position = vec4(float(USE_A)); }\n",
+        "float stays() { return 1.0; }\n"
+        "void main() {\n  gl_Position = vec4(1.0);\n#ifdef USE_A\n  gl_Position *= float(USE_A);\n#endif\n}\n",
         "layout(location = 0) out vec4 color;\nvoid main() { color = vec4(1.0); }\n");
     Problems problems;
     const auto stages = bench.flatten(problems);
@@ -167,6 +167,25 @@ TEST(CocosLiveFunctions, NamesFromOutsideMayBeAny) {
     EXPECT_THAT(findDeadFunctions("float a() { return 1.0; }\nvoid main() { float b = float(mode); }\n", "main", none,
                                   {{"mode"}, {}}),
                 IsEmpty());
+}
+
+// Cocos gives a macro whose value a condition takes a 1, a 0 or a number, and none of its words (formats, 1.6).
+TEST(CocosLiveFunctions, WhatAConditionTakesTheValueOfIsANumber) {
+    const auto text = [](const std::string& condition) {
+        CocosBench bench;
+        bench.fragment(condition +
+                       "\n#endif\nfloat gone() {\n#if USE_GONE\n  return missing;\n#endif\n  return 1.0; }\n" +
+                       "layout(location = 0) out vec4 color;\nvoid main() {\n#ifdef USE_A\n" +
+                       "  color = vec4(USE_A > 0 ? 1.0 : 0.0);\n#endif\n}\n");
+        return bench.fragmentText();
+    };
+    for (const std::string condition : {"#if USE_A", "#if !(USE_A)", "#if 0\n#elif USE_A && defined(USE_A)"}) {
+        EXPECT_THAT(text(condition).flat.text, Not(HasSubstr("gone"))) << condition;
+        EXPECT_THAT(macroNames(text(condition)), ElementsAre("USE_A")) << condition;
+    }
+    // One that is only asked for may be any word, of the function too.
+    for (const std::string condition : {"#ifdef USE_A", "#ifndef USE_A", "#if defined(USE_A)", "#if !defined USE_A"})
+        EXPECT_THAT(text(condition).flat.text, HasSubstr("gone")) << condition;
 }
 
 TEST(CocosLiveFunctions, MacrosOfManyWordsAreReadOnce) {
