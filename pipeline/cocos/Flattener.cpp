@@ -84,6 +84,9 @@ void Flattener::emitDefinition(const SourceLines& lines, std::size_t at, const M
     const Origin origin = lines.origin(at);
     const bool expanded = table_->isExpanded(macro.name);
     if (expanded && !macro.dead) latest_[macro.name] = &macro;
+    // As for C's preprocessors, and unlike GLSL's, a second definition replaces the first.
+    if (!expanded && !macro.fromPragma && table_->isRedefined(macro.name))
+        push(fmt::format("#undef {}", macro.name), origin);
     places_.define(macro.name);
     if (!macro.dead && (table_->isChosen(macro.name) || (expanded && !macro.fromPragma && places_.isConditional())))
         noteChoice(macro, origin);

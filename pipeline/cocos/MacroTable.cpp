@@ -20,6 +20,7 @@ std::string_view namePartsAt(std::string_view text, std::size_t at) {
 
 MacroTable::MacroTable(const SourceText& program, const Resolve& resolve, std::size_t maxSources) {
     visit(program, resolve, maxSources);
+    findRedefined();
     chooseExpanded();
 }
 
@@ -179,14 +180,20 @@ bool MacroTable::expandAround() {
     return carryAll(names);
 }
 
-void MacroTable::chooseChosen() {
+void MacroTable::findRedefined() {
     const auto equal = [](const MacroDefinition& a, const MacroDefinition& b) {
         return a.parameters == b.parameters && a.functionLike == b.functionLike &&
                std::equal(a.body.begin(), a.body.end(), b.body.begin(), b.body.end(),
                           [](const auto& x, const auto& y) { return trimBlank(x.text) == trimBlank(y.text); });
     };
-    for (const MacroDefinition* macro : all_)
-        if (expanded_.contains(macro->name) && !equal(*macro, *find(macro->name))) chosen_.insert(macro->name);
+    for (const auto& [name, definitions] : byName_)
+        for (const MacroDefinition* macro : definitions)
+            if (!equal(*macro, *definitions.front())) redefined_.insert(name);
+}
+
+void MacroTable::chooseChosen() {
+    for (const std::string_view name : redefined_)
+        if (expanded_.contains(name)) chosen_.insert(name);
 }
 
 void MacroTable::expand(std::string_view name) {

@@ -29,6 +29,8 @@ public:
     const MacroDefinition* find(std::string_view name) const;
     /// True for an expanded name with definitions that differ: a condition chooses between them when the shader runs.
     bool isChosen(std::string_view name) const { return chosen_.contains(name); }
+    /// True for a name with definitions that differ, wherever they stand.
+    bool isRedefined(std::string_view name) const { return redefined_.contains(name); }
     /// Where the next name to be expanded stands in a line of code, from `from` on; npos = nowhere.
     std::size_t findCall(std::string_view text, std::size_t from) const;
 
@@ -40,6 +42,7 @@ private:
     bool expandAround();
     bool carryAll(const std::unordered_set<std::string_view>& names);
     void chooseChosen();
+    void findRedefined();
     void expand(std::string_view name);
     std::unordered_set<std::string_view> findSplitting() const;
 
@@ -48,7 +51,7 @@ private:
     std::unordered_set<const SourceText*> seen_;
     std::unordered_map<std::string_view, std::vector<const MacroDefinition*>> byName_;
     std::unordered_map<std::string_view, std::vector<const MacroDefinition*>> callers_;  ///< In whose body it stands.
-    std::unordered_set<std::string_view> expanded_, chosen_;
+    std::unordered_set<std::string_view> expanded_, chosen_, redefined_;
     std::vector<std::string_view> unfollowed_;       ///< Expanded names whose callers are to be expanded too.
     std::unordered_set<std::string_view> carrying_;  ///< Between whose brackets preprocessor lines come to stand.
     std::array<bool, 128> firstLetters_{};           ///< Of the expanded names: most words are passed over by one look.

@@ -37,6 +37,29 @@ TEST(CocosMacro, BranchesOfOtherVersionsDefineNothing) {
     EXPECT_EQ(words(bench.fragmentText().flat.text)[0], "#define A 2");
 }
 
+/// The shadow pass of a surface: the effect says what a macro is, and then the pass' own chunk says so otherwise.
+TEST(CocosMacro, DefinedAgainItHasTheNewMeaning) {
+    CocosBench bench;
+    bench.chunk("for-shadows", "#define WAY 0\n#ifndef WAY\n  #define WAY 7\n#endif\n");
+    bench.fragment(
+        "layout(location = 0) out vec4 color;\n#pragma define-meta HAS_WAY\n#define WAY HAS_WAY\n"
+        "float before() { return float(WAY); }\n#include <for-shadows>\n#if WAY\n#error the first one holds\n#endif\n"
+        "#if WAY > 0\n#error the guarded one holds\n#endif\n"
+        "#define twice(x) ((x) * 2.0)\n#define twice(x) ((x) + (x))\n"
+        "void main() { color = vec4(before(), twice(0.5), float(WAY), 1.0); }\n");
+    bench.compile({{"HAS_WAY", "1"}});
+    bench.compile({{"HAS_WAY", "0"}});
+    EXPECT_THAT(macroNames(bench.fragmentText()), ElementsAre("HAS_WAY"));
+}
+
+TEST(CocosMacro, DefinedAgainBehindAPragmaItHasTheNewMeaning) {
+    CocosBench bench;
+    bench.fragment(
+        "layout(location = 0) out vec4 color;\n#pragma define WAY 1\n#define WAY 2\n#if WAY != 2\n#error pragma's\n"
+        "#endif\nvoid main() { color = vec4(WAY); }\n");
+    bench.compile({});
+}
+
 TEST(CocosMacro, DifferentDefinitionsKeepTheirConditions) {
     CocosBench bench;
     bench.fragment(
