@@ -31,11 +31,13 @@ bool defines(const StageText& stage, const std::string& name) {
     return std::binary_search(stage.defined.begin(), stage.defined.end(), name);
 }
 
-/// What a second stage knows of a macro: the first description holds, and what one of them compares is a number.
+/// What a second stage knows of a macro: of several descriptions the last that says something holds, as within a stage,
+/// and what one of them compares is a number.
 void join(StageMacro& macro, const StageMacro& other) {
     const bool tested = macro.info.tested || other.info.tested;
     const bool inferred = macro.inferred || other.inferred;
-    if (!macro.info.described && other.info.described) {
+    const bool says = (other.info.type != DefineType::Bool && !other.inferred) || other.hasDefault;
+    if (other.info.described && (says || !macro.info.described)) {
         macro.info = other.info;
         macro.inferred = other.inferred;
         macro.hasDefault = other.hasDefault;

@@ -114,6 +114,22 @@ TEST(CocosPragma, StagesKnowOfAMacroTogether) {
     EXPECT_EQ(joined[1].info.range, (std::pair{2, 8}));
 }
 
+TEST(CocosPragma, TheLastStageThatSaysSomethingDescribesAMacro) {
+    CocosBench bench;
+    bench.effect(
+        "#pragma define-meta PLAIN editor(elevated: true)\n#pragma define-meta BOTH range([0, 4])\n"
+        "#pragma define-meta KEPT range([0, 5])\nvoid main() { gl_Position = vec4(PLAIN + BOTH + KEPT); }\n",
+        "#pragma define-meta PLAIN range([1, 2])\n#pragma define-meta BOTH range([0, 7])\n#pragma define-meta KEPT\n"
+        "#if KEPT == 1\n#endif\nlayout(location = 0) out vec4 c; void main() { c = vec4(PLAIN + BOTH); }\n");
+    Problems problems;
+    const std::vector<StageMacro> joined = joinMacros(bench.flatten(problems));
+    ASSERT_EQ(joined.size(), 3u);
+    EXPECT_EQ(joined[0].info.range, (std::pair{1, 2}));
+    EXPECT_EQ(joined[1].info.range, (std::pair{0, 7}));
+    EXPECT_EQ(joined[2].info.range, (std::pair{0, 5}));
+    EXPECT_EQ(bench.compileError(), "");
+}
+
 TEST(CocosPragma, UsedUniformVectorsAreCounted) {
     CocosBench bench;
     // 4 + 1 + 1 registers in the vertex stage, 2 in the fragment stage; an array of a macro's size does not count.
