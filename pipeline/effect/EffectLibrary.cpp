@@ -31,7 +31,7 @@ struct EffectLibrary::State {
     AssetRoots roots;
     Log log;
     SpirvCache disk;
-    ShaderCompiler compiler;
+    std::shared_ptr<ShaderCompiler> compiler;
     struct RecentStage {
         std::string key;  ///< Hash of its text.
         StageCode code;
@@ -203,7 +203,7 @@ std::vector<StageCode> EffectLibrary::State::codeOf(const std::vector<StageSourc
     const bool numbered = std::all_of(sources.begin(), sources.end(), [](const auto& s) { return s.numbered; });
     std::vector<StageCode> code;
     if (!numbered) {
-        code = compiler.compile(sources, bindings, problems);
+        code = compiler->compile(sources, bindings, problems);
         for (std::size_t i = 0; check && i < code.size(); ++i) checkSpirv(code[i], sources[i], problems);
         return code;
     }
@@ -212,7 +212,7 @@ std::vector<StageCode> EffectLibrary::State::codeOf(const std::vector<StageSourc
             contentHash(fmt::format("{}\n{}{}", static_cast<int>(source.stage), source.head, source.text));
         auto known = std::find_if(recent.begin(), recent.end(), [&](const RecentStage& s) { return s.key == key; });
         if (known == recent.end()) {
-            auto fresh = compiler.compile({&source, 1}, bindings, problems);
+            auto fresh = compiler->compile({&source, 1}, bindings, problems);
             if (fresh.empty()) continue;
             recent.push_front({key, std::move(fresh.front())});
             known = recent.begin();
@@ -306,7 +306,7 @@ EffectLibrary::EffectLibrary(AssetRoots roots, const Log& log, Options options)
     : state_(new State{std::move(roots),
                        log,
                        SpirvCache(options.useDiskCache ? cacheFolder("spirv") : std::nullopt),
-                       {},
+                       options.compiler ? options.compiler : std::make_shared<ShaderCompiler>(),
                        {},
                        {},
                        {},

@@ -43,11 +43,13 @@ struct VariantRequest {
 };
 
 class EffectFrontEnd;
+class ShaderCompiler;
 
 class EffectLibrary {
 public:
     struct Options {
         bool useDiskCache = true;
+        std::shared_ptr<ShaderCompiler> compiler{};  ///< Of several libraries, which read GLSL's own names once.
     };
     EffectLibrary(AssetRoots roots, const Log& log, Options options);
     EffectLibrary(AssetRoots roots, const Log& log);

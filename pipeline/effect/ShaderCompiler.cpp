@@ -7,10 +7,12 @@
 #include <glslang/build_info.h>
 
 #include <algorithm>
+#include <optional>
 
 #include "effect/BindingResolver.h"
 #include "effect/Declarations.h"
 #include "effect/GlslMessages.h"
+#include "effect/StageTranslator.h"
 
 namespace crevice {
 namespace {
@@ -101,13 +103,32 @@ bool linkEach(std::vector<ParsedStage>& stages, std::span<const StageSource> sou
     return true;
 }
 
+/// The short way; nothing where there are errors.
+std::optional<std::vector<StageCode>> translateEach(std::span<const StageSource> sources, StageTranslator& translator) {
+    std::vector<StageCode> code;
+    for (const StageSource& source : sources) {
+        auto words = translator.translate(source.stage, source.head + source.text);
+        if (!words) return std::nullopt;
+        code.push_back({source.stage, std::move(*words)});
+    }
+    return code;
+}
+
 }  // namespace
 
 struct ShaderCompiler::Process {
-    Process() { glslang::InitializeProcess(); }
-    ~Process() { glslang::FinalizeProcess(); }
+    Process() {
+        glslang::InitializeProcess();
+        translator.emplace();
+    }
+    ~Process() {
+        translator.reset();
+        glslang::FinalizeProcess();
+    }
     Process(const Process&) = delete;
     Process& operator=(const Process&) = delete;
+
+    std::optional<StageTranslator> translator;
 };
 
 ShaderCompiler::ShaderCompiler() = default;
@@ -116,6 +137,9 @@ ShaderCompiler::~ShaderCompiler() = default;
 std::vector<StageCode> ShaderCompiler::compile(std::span<const StageSource> sources, const BindingMap& bindings,
                                                Problems& problems) {
     if (!process_) process_ = std::make_unique<Process>();
+    const bool numbered = std::all_of(sources.begin(), sources.end(), [](const auto& s) { return s.numbered; });
+    if (numbered)
+        if (auto code = translateEach(sources, *process_->translator)) return std::move(*code);
     Problems own;
     const auto fail = [&] {
         if (own.hasErrors()) problems.add(Error(own.all()));
@@ -129,7 +153,6 @@ std::vector<StageCode> ShaderCompiler::compile(std::span<const StageSource> sour
     }
     if (!parsed || own.hasErrors()) return fail();
 
-    const bool numbered = std::all_of(sources.begin(), sources.end(), [](const auto& s) { return s.numbered; });
     std::vector<StageCode> code;
     const bool linked =
         numbered ? linkEach(stages, sources, code, own) : linkTogether(stages, sources, bindings, code, own);
