@@ -14,15 +14,68 @@ public:
     ConstantReader(const TextConstants& constants, const GlslToken* begin, const GlslToken* end, int depth, int& steps)
         : constants_(constants), at_(begin), end_(end), depth_(depth), steps_(steps) {}
 
-    std::optional<Result> read() {
-        if (at_ == end_) return std::nullopt;
-        auto result = sum();
-        return at_ == end_ ? result : std::nullopt;
+    /// A whole expression, after its macros of one value were put in their places.
+    static std::optional<Result> evaluate(const TextConstants& constants, const GlslToken* begin, const GlslToken* end,
+                                          int depth, int& steps) {
+        std::vector<GlslToken> words;
+        std::vector<std::string_view> open;
+        bool certain = true;
+        if (!expand(constants, begin, end, words, open, certain, steps)) return std::nullopt;
+        auto result = ConstantReader(constants, words.data(), words.data() + words.size(), depth, steps).read();
+        if (result) result->certain = result->certain && certain;
+        return result;
     }
 
 private:
     static constexpr int kMaxDepth = 32, kMaxSteps = 2000;
     static constexpr std::int64_t kLargest = 1ll << 40;
+
+    static bool expand(const TextConstants& constants, const GlslToken* begin, const GlslToken* end,
+                       std::vector<GlslToken>& words, std::vector<std::string_view>& open, bool& certain, int& steps) {
+        for (; begin != end; ++begin) {
+            if (++steps > kMaxSteps) return false;
+            const auto known = constants.values_.find(begin->text);
+            if (known == constants.values_.end() || known->second.size() != 1 || !known->second.front().macro ||
+                constants.limits_.contains(begin->text)) {
+                words.push_back(*begin);
+                continue;
+            }
+            const auto& range = known->second.front();
+            if (open.size() >= kMaxDepth || std::find(open.begin(), open.end(), begin->text) != open.end())
+                return false;
+            certain = certain && range.certain;
+            open.push_back(begin->text);
+            if (!expand(constants, range.begin, range.end, words, open, certain, steps)) return false;
+            open.pop_back();
+        }
+        return true;
+    }
+
+    std::optional<Result> read() {
+        if (at_ == end_) return std::nullopt;
+        auto result = shift();
+        return at_ == end_ ? result : std::nullopt;
+    }
+
+    std::optional<Result> shift() {
+        auto left = sum();
+        while (left && at_ != end_) {
+            const bool up = take("<<") || takeTwo("<"), down = !up && (take(">>") || takeTwo(">"));
+            if (!up && !down) break;
+            const auto right = sum();
+            if (!right || right->value < 0 || right->value > 40) return std::nullopt;
+            const std::int64_t value =
+                up ? multiply(left->value, std::int64_t{1} << right->value) : left->value >> right->value;
+            left = limited({value, left->certain && right->certain});
+        }
+        return left;
+    }
+
+    bool takeTwo(std::string_view text) {
+        if (end_ - at_ < 2 || at_[0].text != text || at_[1].text != text) return false;
+        at_ += 2;
+        return true;
+    }
 
     bool take(std::string_view text) {
         if (at_ == end_ || at_->text != text) return false;
@@ -70,7 +123,7 @@ private:
     std::optional<Result> primary() {
         if (at_ == end_) return std::nullopt;
         if (take("(")) {
-            auto inner = sum();
+            auto inner = shift();
             return take(")") ? inner : std::nullopt;
         }
         const GlslToken& token = *at_++;
@@ -94,7 +147,7 @@ private:
         const auto known = constants_.values_.find(name);
         if (known == constants_.values_.end()) return largest;
         for (const auto& range : known->second) {
-            auto value = ConstantReader(constants_, range.begin, range.end, depth_ + 1, steps_).read();
+            auto value = evaluate(constants_, range.begin, range.end, depth_ + 1, steps_);
             if (!value) return std::nullopt;
             value->certain = value->certain && range.certain;
             if (largest) {
@@ -133,7 +186,7 @@ void TextConstants::addDefine(const std::vector<GlslToken>& tokens, std::size_t 
     const bool function =
         value < end && tokens[value].text == "(" && tokens[value].text.data() == word.data() + word.size();
     const bool adjacent = tokens[first + 1].text.data() == tokens[first].text.data() + 1;
-    if (!function) values_[word].push_back({tokens.data() + value, tokens.data() + end, adjacent});
+    if (!function) values_[word].push_back({tokens.data() + value, tokens.data() + end, adjacent, true});
 }
 
 void TextConstants::addText(const std::vector<GlslToken>& tokens) {
@@ -146,7 +199,7 @@ void TextConstants::addText(const std::vector<GlslToken>& tokens) {
                    (tokens[at + 1].text == "int" || tokens[at + 1].text == "uint") && tokens[at + 3].text == "=") {
             std::size_t end = at + 4;
             while (end < tokens.size() && tokens[end].text != ";" && !tokens[end].directive) ++end;
-            values_[tokens[at + 2].text].push_back({tokens.data() + at + 4, tokens.data() + end, true});
+            values_[tokens[at + 2].text].push_back({tokens.data() + at + 4, tokens.data() + end, true, false});
             at = end - 1;
         }
     }
@@ -154,7 +207,7 @@ void TextConstants::addText(const std::vector<GlslToken>& tokens) {
 
 std::optional<TextConstants::Result> TextConstants::evaluate(const GlslToken* begin, const GlslToken* end) const {
     int steps = 0;
-    return ConstantReader(*this, begin, end, 0, steps).read();
+    return ConstantReader::evaluate(*this, begin, end, 0, steps);
 }
 
 }  // namespace crevice::cocos

@@ -25,8 +25,9 @@ public:
     /// A number from outside of the text, uncertain: what a macro may be at most.
     void addLimit(std::string_view name, std::int64_t largest) { limits_[name] = largest; }
 
-    /// + - * / % << >> and parentheses over numbers and names. Nothing when a name is unknown, a division is by zero,
-    /// or names go round in circles.
+    /// + - * / % << >> and parentheses over numbers and names. A macro's words take its name's place, as in C: with
+    /// `#define A 1 + 1` A * 3 is 4; of one with several values each counts as a whole. Nothing when a name is unknown,
+    /// a division is by zero, or names go round in circles.
     std::optional<Result> evaluate(const GlslToken* begin, const GlslToken* end) const;
 
 private:
@@ -36,6 +37,7 @@ private:
         const GlslToken* begin;
         const GlslToken* end;
         bool certain;
+        bool macro;  ///< Words that take the name's place, no value.
     };
     std::map<std::string_view, std::vector<Range>> values_;
     std::map<std::string_view, std::int64_t> limits_;

@@ -149,6 +149,23 @@ TEST(CocosReflection, ADefineThatIsKeptFromTheCompilerIsNotCounted) {
     EXPECT_EQ(shader.find("builtins")->find("statistics")->find("CC_EFFECT_USED_VERTEX_UNIFORM_VECTORS")->integer(), 1);
 }
 
+TEST(CocosReflection, MacrosInSizesAreTheirWords) {
+    Problems problems;
+    const Value shader = reflectShader(
+        "x",
+        {stageText(kVertexBit,
+                   "#define SUM 1 + 1\n#define ROWS 8\n#define COLS 10\n#define CELLS ROWS * COLS / 4\n"
+                   "#define MANY SUM * 3\n#define ROUND_A ROUND_B\n#define ROUND_B ROUND_A\nconst int KNOWN = 1 + 1;\n"
+                   "uniform L { vec4 a[SUM * 3]; vec4 b[CELLS]; vec4 c[MANY]; vec4 d[(SUM) * 3]; vec4 e[KNOWN * 3];\n"
+                   "  vec4 f[1 << 2]; vec4 g[SUM << SUM]; vec4 h[ROUND_A]; };\n")},
+        problems);
+    std::vector<std::int64_t> counts;
+    for (const Value& member : shader.find("blocks")->items()[0].find("members")->items())
+        counts.push_back(member.find("count")->integer());
+    // As in C: 1 + 1 * 3, 8 * 10 / 4, (1 + 1) * 3; a constant has a value; sums bind before shifts: 2 << 2.
+    EXPECT_EQ(counts, (std::vector<std::int64_t>{4, 20, 4, 6, 6, 4, 8, 1}));
+}
+
 const UniformTypes kUniforms = {
     {"albedo", 16}, {"scaleAndCutoff", 16}, {"params", 16}, {"albedoMap", 28}, {"mainColor", 16},
     {"sky", 31},    {"last", 13},           {"mode", 6}};
