@@ -9,72 +9,133 @@
 namespace crevice::cocos {
 namespace {
 
-constexpr std::size_t kMaxLooked = 16u << 20;  ///< Bytes of macros' bodies that are looked through, of a stage.
-constexpr std::size_t kMaxHeads = 16;          ///< In one declaration.
-constexpr std::size_t kMaxCopies = 16;         ///< Of a declaration with several chosen heads.
+constexpr std::size_t kMaxRefused = 8u << 20;  ///< Bytes of calls that are none, of a stage.
+constexpr std::size_t kMaxBranchDepth = 16;    ///< Conditions that cross a call, each in a copy of the one before.
 
 }  // namespace
 
-template <class Lines>
-std::size_t Flattener::expandLine(const Lines& lines, std::size_t at, Pending& pending) {
-    std::size_t used = 1, from = 0;
+std::size_t Flattener::expandLine(const CodeLines& lines, std::size_t at, Pending& pending) {
+    Cursor cursor{at, 0};
     endedInDirective_ = false;
-    std::string_view text = lines.text(at);
+    std::string_view trailing;  // A name that was written, and now stands in front of what it is called with.
     const auto keep = [&](std::size_t end) {
-        if (trimBlank(pending.text).empty()) pending.origin = lines.origin(at + used - 1);
-        pending.text.append(text.substr(from, end - from));
-        from = end;
+        if (trimBlank(pending.text).empty()) pending.origin = lines.origin(cursor.line);
+        pending.text.append(lines.text(cursor.line).substr(cursor.column, end - cursor.column));
+        cursor.column = end;
     };
     while (!stopped_) {
-        std::size_t call = table_->findCall(text, from);
-        if (call == std::string_view::npos) break;
-        const std::string_view word = leadingName(text.substr(call)), name = calledBy(word);
-        const std::size_t behind = call + word.size(), line = at + used - 1;
-        const Origin origin = lines.origin(line);
-        const SourceLoc where = placeAt(text, call, word.size(), origin);
-        keep(call);
-        if (!expandedFrom_) callPlace_ = where;
-        const std::string_view head = chosenHeadOf(name);
-        const StatementRest rest = head.empty() ? StatementRest{} : restOfDeclaration(lines, line, call);
-        if (rest.found || isOpenChoice(name)) {
-            from = rest.found ? rest.end : behind;
-            const std::size_t last = rest.found ? expandDeclaration(head, rest, origin, pending)
-                                                : expandChoices(lines, line, name, from, pending);
-            used = last - at + 1;
-            text = lines.text(last);
+        const std::string_view text = lines.text(cursor.line);
+        std::string_view word = std::exchange(trailing, {});
+        const bool isWritten = !word.empty();
+        if (isWritten) {
+            pending.text.resize(pending.text.size() - word.size());
+        } else {
+            const std::size_t call = table_->findCall(text, cursor.column);
+            if (call == std::string_view::npos) break;
+            keep(call);
+            word = leadingName(text.substr(call));
+            if (!expandedFrom_) callPlace_ = placeAt(text, call, word.size(), lines.origin(cursor.line));
+        }
+        const std::string_view name = calledBy(word);
+        const std::string_view head = isWritten ? std::string_view() : chosenHeadOf(name);
+        if (const StatementRest rest = head.empty() ? StatementRest{} : restOfDeclaration(lines, cursor); rest.found) {
+            const Origin origin = lines.origin(cursor.line);
+            cursor = {rest.line, rest.end};
+            expandDeclaration(head, rest, origin, pending);
             continue;
         }
-        const MacroDefinition* macro = definitionOf(name);
-        const bool active = macro == nullptr || std::find(active_.begin(), active_.end(), name) != active_.end();
-        CallArguments arguments;
-        if (!active && macro->functionLike) arguments = readArguments(lines, line, behind, limits_.maxArgument);
-        if (active || (macro->functionLike && !arguments.found)) {
-            if (arguments.unclosed) reportUnclosed(name, where, problems_);
-            stopped_ = stopped_ || arguments.unclosed;
-            keep(behind);
-            continue;
-        }
-        from = behind;
-        if (macro->functionLike) {
-            used = arguments.line - at + 1;
-            text = lines.text(arguments.line);
-            from = arguments.end;
-            if (!matchArguments(*macro, arguments.values)) {
-                reportArguments(*macro, arguments.values.size(), where, problems_);
-                continue;
-            }
-        }
-        const bool begins = beginsStatement(pending);
-        endedInDirective_ = expand(*macro, arguments.values, origin, pending);
-        if (endedInDirective_ && begins && isStatements(*macro)) {
-            from = std::min(text.find_first_not_of(" \t", from), text.size());
-            if (from < text.size() && text[from] == ';') ++from;  // It ended a call that is no statement now.
+        Cursor behind{cursor.line, cursor.column + (isWritten ? 0 : word.size())};
+        if (expandCall(lines, behind, name, pending)) {
+            cursor = behind;
+            trailing = trailingName(pending);
+        } else {
+            if (trimBlank(pending.text).empty()) pending.origin = lines.origin(cursor.line);
+            pending.text += name;
+            cursor = behind;
         }
     }
-    text = withoutSplice(text);
-    endedInDirective_ = endedInDirective_ && trimBlank(text.substr(std::min(from, text.size()))).empty();
-    if (from < text.size()) keep(text.size());
-    return used;
+    const std::string_view text = withoutSplice(lines.text(cursor.line));
+    endedInDirective_ = endedInDirective_ && trimBlank(text.substr(std::min(cursor.column, text.size()))).empty();
+    if (cursor.column < text.size()) keep(text.size());
+    return cursor.line - at + 1;
+}
+
+bool Flattener::expandCall(const CodeLines& lines, Cursor& cursor, std::string_view name, Pending& pending) {
+    if (isOpenChoice(name)) return expandChoices(lines, cursor, name, pending);
+    const MacroDefinition* macro = definitionOf(name);
+    if (macro == nullptr) return false;
+    if (std::find(active_.begin(), active_.end(), name) != active_.end()) {
+        pending.text.append(1, kFinal).append(name);  // Elsewhere too it stays a name.
+        return true;
+    }
+    return expandDefinition(lines, cursor, *macro, pending);
+}
+
+bool Flattener::expandDefinition(const CodeLines& lines, Cursor& cursor, const MacroDefinition& macro,
+                                 Pending& pending) {
+    const Origin origin = lines.origin(cursor.line);
+    CallArguments arguments;
+    if (macro.functionLike) {
+        arguments = takeArguments(lines, cursor, macro.name);
+        if (arguments.state == CallArguments::State::Crossing || pastesLines(macro, arguments))
+            return expandBranches(lines, cursor, macro.name, *macro.source, pending);
+        if (!arguments.found()) return false;
+        if (!matchArguments(macro, arguments.values)) {
+            if (places_.isConditional() || captured_ != nullptr) return false;  // Perhaps no variant comes here.
+            reportArguments(macro, arguments.values.size(), callPlace_, problems_);
+        }
+        cursor = {arguments.line, arguments.end};
+        if (arguments.values.size() != macro.parameters.size()) return true;
+    }
+    const bool begins = beginsStatement(pending);
+    endedInDirective_ = expand(macro, arguments.values, origin, pending);
+    if (!endedInDirective_ || !begins || !isStatements(macro)) return true;
+    const std::string_view text = lines.text(cursor.line);
+    cursor.column = std::min(text.find_first_not_of(" \t", cursor.column), text.size());
+    if (cursor.column < text.size() && text[cursor.column] == ';') ++cursor.column;  // It ends no statement now.
+    return true;
+}
+
+CallArguments Flattener::takeArguments(const CodeLines& lines, Cursor cursor, std::string_view name) {
+    CallArguments arguments = readArguments(lines, cursor.line, cursor.column, limits_.maxArgument);
+    if (!arguments.found()) refused_ += arguments.bytes;
+    if (!stopped_ && (arguments.state == CallArguments::State::Unclosed || refused_ > kMaxRefused)) {
+        reportUnclosed(name, callPlace_, problems_);
+        stopped_ = true;  // The next would look through as many lines again.
+    }
+    return arguments;
+}
+
+bool Flattener::expandBranches(const CodeLines& lines, Cursor& cursor, std::string_view name, const SourceText& source,
+                               Pending& pending) {
+    if (branchDepth_ == kMaxBranchDepth) return false;
+    const CallBranches call = splitCall(lines, cursor.line, cursor.column, name, limits_.maxArgument);
+    refused_ += call.bytes;
+    if (call.branches.empty()) return false;
+    ++branchDepth_;
+    flush(pending);
+    for (const CallBranches::Branch& branch : call.branches) {
+        emitDirective(branch.directive, branch.origin, source);
+        Pending copy;
+        writeLines(branch.lines, copy, source, false);
+        flush(copy);
+        written_ += call.bytes;
+    }
+    emitDirective("#endif", call.branches.back().origin, source);
+    --branchDepth_;
+    if (written_ > limits_.maxBytes) stopExpanding(*table_->find(name));
+    cursor = {call.line, call.end};
+    endedInDirective_ = false;
+    return true;
+}
+
+std::string_view Flattener::trailingName(const Pending& pending) const {
+    std::size_t begin = pending.text.size();
+    while (begin > 0 && isNamePart(pending.text[begin - 1])) --begin;
+    if (begin > 0 && pending.text[begin - 1] == kFinal) return {};
+    const MacroDefinition* macro = table_->find(std::string_view(pending.text).substr(begin));
+    if (macro == nullptr || !table_->isExpanded(macro->name) || table_->isRecursive(macro->name)) return {};
+    return macro->name;
 }
 
 bool Flattener::isStatements(const MacroDefinition& macro) const {
@@ -82,232 +143,14 @@ bool Flattener::isStatements(const MacroDefinition& macro) const {
                           [&](std::string_view text) { return table_->findCall(text, 0) != std::string_view::npos; });
 }
 
-std::string_view Flattener::calledBy(std::string_view name) const {
-    for (std::size_t i = 0; i < limits_.maxDepth && !isOpenChoice(name); ++i) {
-        const MacroDefinition* macro = definitionOf(name);
-        if (macro == nullptr || macro->functionLike || macro->body.size() != 1 ||
-            std::find(active_.begin(), active_.end(), name) != active_.end())
-            break;
-        const std::string_view body = trimBlank(macro->body[0].text);
-        if (body.empty() || leadingName(body) != body || !table_->isExpanded(body)) break;
-        name = body;
-    }
-    return name;
-}
-
-template <class Visit>
-bool Flattener::visitCalls(std::string_view text, std::unordered_set<std::string_view>& seen, Visit visit) {
-    std::vector<std::string_view> waiting{text};
-    while (!waiting.empty()) {
-        const std::string_view next = waiting.back();
-        waiting.pop_back();
-        looked_ += next.size();
-        if (looked_ > kMaxLooked) return false;
-        for (std::size_t at = 0; (at = table_->findCall(next, at)) != std::string_view::npos;) {
-            const std::string_view call = leadingName(next.substr(at));
-            at += call.size();
-            if (!seen.insert(call).second) continue;
-            const Visited visited = visit(call);
-            if (visited == Visited::Found) return true;
-            if (visited == Visited::PassOver) continue;
-            const auto enter = [&](const MacroDefinition& macro) {
-                for (const auto& part : macro.body) waiting.push_back(part.text);
-            };
-            if (isOpenChoice(call)) {
-                for (const auto& choice : choices_.of(call)) enter(*choice.macro);
-            } else if (const MacroDefinition* macro = definitionOf(call)) {
-                enter(*macro);
-            }
-        }
-    }
-    return false;
-}
-
-bool Flattener::addOpenChoices(std::string_view text, std::vector<std::string_view>& names,
-                               std::unordered_set<std::string_view>& seen) {
-    return visitCalls(text, seen, [&](std::string_view call) {
-        const MacroDefinition* macro = definitionOf(call);
-        if (isOpenChoice(call)) names.push_back(call);
-        if (names.size() > kMaxHeads) return Visited::Found;
-        const bool within = std::find(active_.begin(), active_.end(), call) != active_.end();
-        return isOpenChoice(call) || within || macro == nullptr || macro->bearsDirectives ? Visited::PassOver
-                                                                                          : Visited::Enter;
-    });
-}
-
-bool Flattener::isHeadChoice(std::string_view name) {
-    const auto& choices = choices_.of(name);
-    return std::any_of(choices.begin(), choices.end(), [&](const auto& choice) {
-        const MacroDefinition* macro = choice.macro;
-        return macro->declares || (!macro->bearsDirectives && macro->body.size() == 1 &&
-                                   table_->findCall(macro->body[0].text, 0) != std::string_view::npos);
-    });
-}
-
-std::string_view Flattener::chosenHeadOf(std::string_view name) {
-    if (choices_.isEmpty()) return {};
-    if (isOpenChoice(name)) return isHeadChoice(name) ? name : std::string_view();
-    const MacroDefinition* macro = definitionOf(name);
-    if (macro == nullptr || macro->bearsDirectives || macro->body.empty()) return {};
-    const std::string_view last = trimBlank(macro->body.back().text);
-    if (last.empty() || last.ends_with(';') || last.ends_with('}')) return {};
-    std::vector<std::string_view> names;
-    std::unordered_set<std::string_view> seen;
-    for (const auto& part : macro->body) addOpenChoices(part.text, names, seen);
-    const auto head = std::find_if(names.begin(), names.end(), [&](std::string_view one) { return isHeadChoice(one); });
-    return head == names.end() ? std::string_view() : *head;
-}
-
-template <class Lines>
-StatementRest Flattener::restOfDeclaration(const Lines& lines, std::size_t at, std::size_t from) {
-    std::vector<std::string_view> names;
-    std::unordered_set<std::string_view> seen;
-    return readStatementRest(lines, at, from, limits_.maxArgument, [&](std::string_view part) {
-        addOpenChoices(part, names, seen);
-        std::size_t copies = 1;
-        for (const std::string_view name : names) copies = std::min(copies * choices_.of(name).size(), kMaxCopies + 1);
-        return copies > kMaxCopies && names.size() > 1;
-    });
-}
-
-bool Flattener::beginsStatement(const Pending& pending) const {
-    std::string_view before = trimBlank(pending.text);
-    if (captured_ != nullptr) return false;
-    if (before.empty()) {
-        before = trimBlank(std::string_view(out_.flat.text));
-        while (before.ends_with('\n')) before = trimBlank(before.substr(0, before.size() - 1));
-        const auto begin = before.rfind('\n');
-        if (trimBlank(before.substr(begin == std::string_view::npos ? 0 : begin + 1)).starts_with('#')) return true;
-    }
-    return before.empty() || std::string_view(";{})").find(before.back()) != std::string_view::npos;
-}
-
-std::string Flattener::takeHead(Pending& pending) {
-    const std::size_t end = pending.text.find_last_of(";{}");
-    std::string head = end == std::string::npos ? pending.text : pending.text.substr(end + 1);
-    pending.text.resize(pending.text.size() - head.size());
-    flush(pending);
-    return head;
-}
-
-template <class Write>
-void Flattener::writeEach(std::string_view name, Origin origin, Write write) {
-    const auto choices = choices_.possible(name, places_);
-    const bool sure = choices_.isSure(name, places_);
-    const MacroDefinition* const latest = latest_[name];
-    choices_.take(name);
-    const std::size_t included = included_.size();
-    std::vector<const SourceText*> ofCopies;
-    for (std::size_t i = 0; i < choices.size() + (sure ? 0 : 1) && !stopped_; ++i) {
-        const bool defined = i < choices.size();
-        latest_[name] = defined ? choices[i].macro : nullptr;
-        const SourceText& source = *choices[defined ? i : 0].macro->source;
-        emitDirective(
-            defined ? fmt::format("#{} {} == {}", i == 0 ? "if" : "elif", choiceOf(name), choices[i].number) : "#else",
-            origin, source);
-        write(latest_[name]);
-        const auto ofCopy = included_.cutTo(included);
-        ofCopies.insert(ofCopies.end(), ofCopy.begin(), ofCopy.end());
-    }
-    for (const SourceText* one : ofCopies) included_.insert(*one);
-    emitDirective("#endif", origin, *choices.front().macro->source);
-    choices_.release();
-    latest_[name] = latest;
-}
-
-std::size_t Flattener::expandDeclaration(std::string_view head, const StatementRest& rest, Origin origin,
-                                         Pending& pending) {
-    const std::string before = takeHead(pending);
-    const SourceText& source = *choices_.of(head).front().macro->source;
-    writeEach(head, origin, [&](const MacroDefinition*) {
-        Pending copy{before, origin};
-        writeLines(rest.lines, copy, source, false);
-        flush(copy);
-    });
-    endedInDirective_ = true;
-    return rest.line;
-}
-
-template <class Lines>
-std::size_t Flattener::expandChoices(const Lines& lines, std::size_t at, std::string_view name, std::size_t& from,
-                                     Pending& pending) {
-    const auto choices = choices_.possible(name, places_);
-    const Origin origin = lines.origin(at);
-    const std::size_t begin = from;
-    CallArguments arguments;
-    if (std::any_of(choices.begin(), choices.end(), [](const auto& one) { return one.macro->functionLike; }))
-        arguments = readArguments(lines, at, from, limits_.maxArgument);
-    if (arguments.unclosed) {
-        reportUnclosed(name, callPlace_, problems_);
-        stopped_ = true;  // The next would look through as many lines again.
-        return at;
-    }
-    const std::size_t last = arguments.found ? arguments.line : at;
-    if (arguments.found) from = arguments.end;
-    const std::string_view text = lines.text(last);
-    const std::size_t behind = std::min(text.find_first_not_of(" \t", from), text.size());
-    const bool statement = behind < text.size() && text[behind] == ';' && beginsStatement(pending);
-    if (statement) from = behind + 1;
-    BodyLines written;  // The call as it stands, for where no definition holds.
-    for (std::size_t line = at, column = begin; line <= last; ++line, column = 0) {
-        const std::size_t end = line == last ? from : lines.text(line).size();
-        written.texts.emplace_back(line == at ? name : std::string_view());
-        written.texts.back() += lines.text(line).substr(column, end - column);
-        written.origins.push_back(lines.origin(line));
-    }
-    flush(pending);
-    bool allEnd = true;
-    writeEach(name, origin, [&](const MacroDefinition* macro) {
-        Pending copy{{}, origin};
-        const bool ended = macro != nullptr && expandChoice(*macro, arguments, origin, copy);
-        if (macro == nullptr) {
-            writeLines(written, copy, *choices.front().macro->source, false);
-            return flush(copy);
-        }
-        if (statement && !(ended && isStatements(*macro))) copy.text += ';';
-        allEnd = allEnd && (ended || statement);
-        flush(copy);
-    });
-    endedInDirective_ = allEnd;
-    return last;
-}
-
-bool Flattener::expandChoice(const MacroDefinition& macro, const CallArguments& arguments, Origin origin,
-                             Pending& pending) {
-    if (macro.functionLike && !arguments.found) {
-        pending.text += macro.name;
-        return false;
-    }
-    std::vector<std::string> values = arguments.values;
-    if (macro.functionLike && !matchArguments(macro, values)) {
-        reportArguments(macro, values.size(), callPlace_, problems_);
-        return false;
-    }
-    const bool ended = expand(macro, macro.functionLike ? values : std::vector<std::string>{}, origin, pending);
-    if (macro.functionLike || !arguments.found) return ended;
-    pending.text += fmt::format("({})", fmt::join(arguments.values, ", "));
-    return false;
-}
-
 void Flattener::expandArguments(const MacroDefinition& macro, std::vector<std::string>& arguments, Origin origin) {
     const auto isPasted = [](const auto& part) { return part.text.find("##") != std::string_view::npos; };
     if (std::any_of(macro.body.begin(), macro.body.end(), isPasted)) return;
     for (std::string& argument : arguments) {
-        std::unordered_set<std::string_view> seen;
-        const bool leadsBack = visitCalls(argument, seen, [&](std::string_view call) {
-            const bool around = std::find(active_.begin(), active_.end(), call) != active_.end();
-            return call == macro.name || around ? Visited::Found : Visited::Enter;
-        });
-        if (!leadsBack) continue;
+        if (table_->findCall(argument, 0) == std::string_view::npos) continue;
         if (argumentDepth_ >= limits_.maxDepth) return stopExpanding(macro);
         ++argumentDepth_;
-        BodyLines lines;
-        for (std::size_t at = 0; at <= argument.size();) {
-            const std::size_t end = std::min(argument.find('\n', at), argument.size());
-            lines.texts.push_back(argument.substr(at, end - at));
-            lines.origins.push_back(origin);
-            at = end + 1;
-        }
+        const BodyLines lines = splitLines(argument, origin);
         std::string written;
         std::string* const outer = std::exchange(captured_, &written);
         Pending pending;
@@ -385,7 +228,5 @@ void Flattener::stopExpanding(const MacroDefinition& macro) {
     problems_.error(callPlace_, fmt::format("macro '{}' expands without end", name),
                     "macros multiply each other: write out what is meant");
 }
-
-template std::size_t Flattener::expandLine(const SourceLines&, std::size_t, Pending&);
 
 }  // namespace crevice::cocos

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -9,6 +10,7 @@
 #include <unordered_set>
 #include <vector>
 
+#include "cocos/CallBranches.h"
 #include "cocos/FlatOutput.h"
 #include "cocos/IncludedTexts.h"
 #include "cocos/MacroCall.h"
@@ -16,6 +18,8 @@
 #include "cocos/MacroTable.h"
 
 namespace crevice::cocos {
+
+constexpr std::size_t kMaxLooked = 16u << 20;  ///< Bytes of macros' bodies that are looked through, of a stage.
 
 class Flattener : private FlatOutput {
 public:
@@ -47,9 +51,24 @@ private:
         Origin origin{};
     };
 
+    /// A place among the lines that are read.
+    struct Cursor {
+        std::size_t line = 0, column = 0;
+    };
+
     /// Expands the calls of line `at`, whose arguments may reach over the next ones. Returns the number of lines used.
-    template <class Lines>
-    std::size_t expandLine(const Lines& lines, std::size_t at, Pending& pending);
+    std::size_t expandLine(const CodeLines& lines, std::size_t at, Pending& pending);
+    /// Expands the call of a macro whose name ends at the cursor, which goes behind the call. False: no call.
+    bool expandCall(const CodeLines& lines, Cursor& cursor, std::string_view name, Pending& pending);
+    bool expandDefinition(const CodeLines& lines, Cursor& cursor, const MacroDefinition& macro, Pending& pending);
+    /// Arguments behind the cursor. A call that cannot be one is text: GLSL's preprocessor is to refuse it in the
+    /// variant that holds it.
+    CallArguments takeArguments(const CodeLines& lines, Cursor cursor, std::string_view name);
+    /// Writes a call that conditions cross once for each branch of the first of them. False: it is text.
+    bool expandBranches(const CodeLines& lines, Cursor& cursor, std::string_view name, const SourceText& source,
+                        Pending& pending);
+    /// A macro whose name a body ended in: what stands behind the call is its list.
+    std::string_view trailingName(const Pending& pending) const;
 
     bool isOpenChoice(std::string_view name) const {
         return choices_.isOpen(name, places_) && std::find(active_.begin(), active_.end(), name) == active_.end();
@@ -84,34 +103,29 @@ private:
 
     /// A declaration whose head a condition chooses is written whole for each head: of one in pieces nobody could tell
     /// what it declares. Not found where several heads in one would multiply the text.
-    template <class Lines>
-    StatementRest restOfDeclaration(const Lines& lines, std::size_t at, std::size_t from);
+    StatementRest restOfDeclaration(const CodeLines& lines, Cursor from);
 
     /// True when the call that begins where `pending` ends begins a statement.
     bool beginsStatement(const Pending& pending) const;
 
     /// Calls `write` for each definition of the macro, in branches of one condition, and with null for the branch that
     /// remains where none may hold.
-    template <class Write>
-    void writeEach(std::string_view name, Origin origin, Write write);
+    void writeEach(std::string_view name, Origin origin, const std::function<void(const MacroDefinition*)>& write);
 
     /// What the line that is being put together has of the present statement; the rest is written.
     std::string takeHead(Pending& pending);
 
     /// Writes the call of a macro whose definition a condition chooses once for each: a line of code may be broken
-    /// anywhere. Returns the line on which it ends; `from` is the column behind its name, and then behind the call.
-    template <class Lines>
-    std::size_t expandChoices(const Lines& lines, std::size_t at, std::string_view name, std::size_t& from,
-                              Pending& pending);
+    /// anywhere. The cursor goes from behind its name to behind the call. False: it is text.
+    bool expandChoices(const CodeLines& lines, Cursor& cursor, std::string_view name, Pending& pending);
 
-    /// Writes a declaration with its chosen head once for each. Returns the line on which it ends.
-    std::size_t expandDeclaration(std::string_view head, const StatementRest& rest, Origin origin, Pending& pending);
+    /// Writes a declaration with its chosen head once for each.
+    void expandDeclaration(std::string_view head, const StatementRest& rest, Origin origin, Pending& pending);
 
     /// One of the definitions: those without parameters leave the brackets standing, those with them need brackets.
     bool expandChoice(const MacroDefinition& macro, const CallArguments& arguments, Origin origin, Pending& pending);
 
-    /// An argument that names the macro it is given to, or one around it, is expanded before it is put in: within
-    /// themselves macros are not.
+    /// Arguments are expanded before they are put in, but for those of a body that pastes.
     void expandArguments(const MacroDefinition& macro, std::vector<std::string>& arguments, Origin origin);
 
     /// Writes a macro's body. True when its last line was a preprocessor line.
@@ -145,6 +159,8 @@ private:
     std::optional<Origin> expandedFrom_;    ///< The author's call that writes the present lines.
     SourceLoc callPlace_;                   ///< Of that call.
     std::size_t includes_ = 0, expansions_ = 0, written_ = 0, looked_ = 0, argumentDepth_ = 0;
+    std::size_t branchDepth_ = 0;
+    std::size_t refused_ = 0;  ///< Bytes of calls that turned out to be none.
     struct {
         std::size_t expansions = 0, written = 0;
     } before_;  ///< The counts before that call.
@@ -152,5 +168,33 @@ private:
     bool endedInDirective_ = false;  ///< What the line expanded last ended in.
     bool stopped_ = false;
 };
+
+template <class Visit>
+bool Flattener::visitCalls(std::string_view text, std::unordered_set<std::string_view>& seen, Visit visit) {
+    std::vector<std::string_view> waiting{text};
+    while (!waiting.empty()) {
+        const std::string_view next = waiting.back();
+        waiting.pop_back();
+        looked_ += next.size();
+        if (looked_ > kMaxLooked) return false;
+        for (std::size_t at = 0; (at = table_->findCall(next, at)) != std::string_view::npos;) {
+            const std::string_view call = leadingName(next.substr(at));
+            at += call.size();
+            if (!seen.insert(call).second) continue;
+            const Visited visited = visit(call);
+            if (visited == Visited::Found) return true;
+            if (visited == Visited::PassOver) continue;
+            const auto enter = [&](const MacroDefinition& macro) {
+                for (const auto& part : macro.body) waiting.push_back(part.text);
+            };
+            if (isOpenChoice(call)) {
+                for (const auto& choice : choices_.of(call)) enter(*choice.macro);
+            } else if (const MacroDefinition* macro = definitionOf(call)) {
+                enter(*macro);
+            }
+        }
+    }
+    return false;
+}
 
 }  // namespace crevice::cocos

@@ -24,6 +24,7 @@ Flattened Flattener::run(const std::string& program, const SourceLoc& where) {
         },
         limits_.maxIncludes);
     table_ = &table;
+    for (const std::string_view name : table.hoisted()) places_.defineBefore(name);
     out_.flat.text.reserve(1u << 16);
     emit(*found.source);
     return std::move(out_);
@@ -74,7 +75,10 @@ void Flattener::emitDirective(std::string_view text, Origin origin, const Source
         FlatDirective note{directive.kind, lineCount(), out_.flat.text.size(), text.size(), nullptr, nullptr, origin};
         push(text, origin);
         if (isConditional(directive.kind) || directive.kind == LineKind::Define) out_.directives.push_back(note);
-        if (isConditional(directive.kind)) places_.follow(directive.kind, directive.rest);
+        if (isConditional(directive.kind) && !places_.follow(directive.kind, directive.rest))
+            stop(text, origin, fmt::format("conditions are nested deeper than {}", DefinedPlaces::kMaxDepth),
+                 "close some of them: GLSL's preprocessor takes no more");
+        if (directive.kind == LineKind::Define) places_.define(leadingName(directive.rest));
         if (directive.kind == LineKind::Undef) undefine(leadingName(trimBlank(directive.rest)), origin, source);
     }
 }
@@ -83,17 +87,22 @@ void Flattener::emitDefinition(const SourceLines& lines, std::size_t at, const M
     const SourceLine& line = lines.source.lines[at];
     const Origin origin = lines.origin(at);
     const bool expanded = table_->isExpanded(macro.name);
-    if (expanded && !macro.dead) latest_[macro.name] = &macro;
+    const bool hidden = table_->isHidden(macro.name);
     // As for C's preprocessors, and unlike GLSL's, a second definition replaces the first.
-    if (!expanded && !macro.fromPragma && table_->isRedefined(macro.name))
-        push(fmt::format("#undef {}", macro.name), origin);
+    const bool replaces =
+        expanded ? !hidden && !choices_.possible(macro.name, places_).empty() : table_->isRedefined(macro.name);
+    const auto latest = latest_.find(macro.name);
+    const bool holds = latest != latest_.end() && latest->second != nullptr && !choices_.contains(macro.name);
+    if (expanded && !macro.dead) latest_[macro.name] = &macro;
     places_.define(macro.name);
-    if (!macro.dead && (table_->isChosen(macro.name) || (expanded && !macro.fromPragma && places_.isConditional())))
-        noteChoice(macro, origin);
+    // An equal one that stands above all conditions holds in any case.
+    const bool uncertain = !macro.fromPragma && !holds && (places_.isConditional() || table_->isUndefined(macro.name));
+    if (!macro.dead && (table_->isChosen(macro.name) || (expanded && uncertain))) noteChoice(macro, origin);
+    if (replaces && !macro.fromPragma) push(fmt::format("#undef {}", macro.name), origin);
     const FlatDirective note{line.kind, lineCount(), out_.flat.text.size(), 0, &macro, nullptr, origin};
     out_.directives.push_back(note);
     if (macro.fromPragma) return;  // Hoisted by the analysis.
-    if (expanded) return push(fmt::format("#define {0} {0}", macro.name), origin);
+    if (expanded && hidden) return push(fmt::format("#define {0} {0}", macro.name), origin);
     for (std::size_t i = at; i < at + line.span; ++i) {
         const bool adopts = macro.adoptsNextLine && i == at;
         push(std::string(lines.text(i)) + (adopts ? " \\" : ""), lines.origin(i));
@@ -148,7 +157,13 @@ void Flattener::push(std::string_view line, Origin origin) {
         captured_->append(line).push_back('\n');
         return;
     }
-    write(line, origin, expandedFrom_);
+    if (line.find(kFinal) == std::string_view::npos) {
+        write(line, origin, expandedFrom_);
+    } else {
+        std::string plain(line);
+        std::erase(plain, kFinal);
+        write(plain, origin, expandedFrom_);
+    }
     if (out_.flat.text.size() > limits_.maxBytes)
         stop(line, origin, fmt::format("the flattened stage is larger than {} MB", limits_.maxBytes >> 20));
 }

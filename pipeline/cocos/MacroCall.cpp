@@ -4,8 +4,20 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 namespace crevice::cocos {
+
+BodyLines splitLines(std::string_view text, FlatSource::Origin origin) {
+    BodyLines lines;
+    for (std::size_t at = 0; at <= text.size();) {
+        const std::size_t end = std::min(text.find('\n', at), text.size());
+        lines.texts.emplace_back(text.substr(at, end - at));
+        lines.origins.push_back(origin);
+        at = end + 1;
+    }
+    return lines;
+}
 
 bool ArgumentReader::read(std::string_view text, std::size_t& at) {
     for (; at < text.size(); ++at) {
@@ -27,15 +39,61 @@ bool ArgumentReader::read(std::string_view text, std::size_t& at) {
     return true;
 }
 
-bool ArgumentReader::readLine(std::string_view text, LineKind kind) {
-    if (!isConditional(kind)) return false;
+CallArguments::State ArgumentReader::readLine(std::string_view text, LineKind kind) {
+    using State = CallArguments::State;
     const bool opens = kind == LineKind::If || kind == LineKind::Ifdef || kind == LineKind::Ifndef;
-    if (!opens && (branches_.empty() || branches_.back() != depth_)) return false;
+    if (!isConditional(kind) || (!opens && branches_.empty())) return State::Cut;
+    if (!opens && branches_.back() != depth_) return State::Crossing;
     if (opens) branches_.push_back(depth_);
     if (kind == LineKind::Endif) branches_.pop_back();
     values_.back().append("\n").append(text).append("\n");
     bytes_ += text.size() + 2;
-    return true;
+    return State::Found;
+}
+
+std::string joinContinued(const CodeLines& lines, std::size_t& line) {
+    std::string joined(lines.text(line));
+    while (joined.ends_with('\\') && line + 1 < lines.size()) {
+        joined.back() = ' ';
+        joined.append(lines.text(++line));
+    }
+    return joined;
+}
+
+CallArguments readArguments(const CodeLines& lines, std::size_t line, std::size_t at, std::size_t maxBytes) {
+    using State = CallArguments::State;
+    CallArguments result;
+    ArgumentReader reader;
+    const auto end = [&](State state) {
+        result.state = state;
+        result.bytes = reader.bytes();
+        return std::move(result);
+    };
+    for (; line < lines.size(); ++line, at = 0) {
+        const std::string_view text = lines.text(line);
+        if (const LineKind kind = at == 0 ? readDirective(text).kind : LineKind::Code; kind != LineKind::Code) {
+            const bool opens = kind == LineKind::If || kind == LineKind::Ifdef || kind == LineKind::Ifndef;
+            if (!reader.isOpen()) return end(opens ? State::Crossing : State::None);
+            const std::string whole = joinContinued(lines, line);
+            if (const State state = reader.readLine(whole, kind); state != State::Found) return end(state);
+            continue;
+        }
+        if (!reader.isOpen()) {
+            at = std::min(text.find_first_not_of(" \t", at), text.size());
+            if (at == text.size()) continue;
+            if (text[at] != '(') return end(State::None);
+        }
+        if (!reader.read(text, at)) {
+            if (!reader.isWhole()) return end(State::Crossing);
+            result.values = reader.take();
+            result.line = line;
+            result.end = at;
+            return end(State::Found);
+        }
+        if (reader.bytes() > maxBytes) break;
+    }
+    if (!reader.isOpen()) return end(State::None);
+    return end(lines.isBody() && reader.bytes() <= maxBytes ? State::Cut : State::Unclosed);
 }
 
 std::vector<std::string> ArgumentReader::take() {
@@ -46,6 +104,13 @@ std::vector<std::string> ArgumentReader::take() {
 bool matchArguments(const MacroDefinition& macro, std::vector<std::string>& arguments) {
     if (macro.parameters.empty() && arguments.size() == 1 && arguments[0].empty()) arguments.clear();
     return arguments.size() == macro.parameters.size();
+}
+
+bool pastesLines(const MacroDefinition& macro, const CallArguments& arguments) {
+    const auto isPasted = [](const auto& part) { return part.text.find("##") != std::string_view::npos; };
+    return std::any_of(arguments.values.begin(), arguments.values.end(),
+                       [](const std::string& value) { return value.find('\n') != std::string::npos; }) &&
+           std::any_of(macro.body.begin(), macro.body.end(), isPasted);
 }
 
 void reportUnclosed(std::string_view macro, const SourceLoc& where, Problems& problems) {
@@ -73,6 +138,12 @@ std::string joinDirective(const SourceLines& lines, std::size_t first, std::size
 std::string substitute(std::string_view body, const std::vector<std::string_view>& parameters,
                        const std::vector<std::string>& arguments) {
     std::string out;
+    bool pasting = false;
+    const auto beginOfName = [&] {
+        std::size_t begin = out.size();
+        while (begin > 0 && isNamePart(out[begin - 1])) --begin;
+        return begin;
+    };
     for (std::size_t i = 0; i < body.size();) {
         if (isNamePart(body[i])) {
             std::size_t end = i + 1;
@@ -80,13 +151,18 @@ std::string substitute(std::string_view body, const std::vector<std::string_view
             const std::string_view word = body.substr(i, end - i);
             const auto it = std::find(parameters.begin(), parameters.end(), word);
             const auto index = static_cast<std::size_t>(it - parameters.begin());
-            out.append(index < arguments.size() ? std::string_view(arguments[index]) : word);
+            std::string_view value = index < arguments.size() ? std::string_view(arguments[index]) : word;
+            if (std::exchange(pasting, false) && value.starts_with(kFinal)) value.remove_prefix(1);
+            out.append(value);
             i = end;
         } else if (body.substr(i, 2) == "##") {
             while (!out.empty() && (out.back() == ' ' || out.back() == '\t')) out.pop_back();
+            if (const std::size_t begin = beginOfName(); begin > 0 && out[begin - 1] == kFinal) out.erase(begin - 1, 1);
             i = std::min(body.find_first_not_of(" \t", i + 2), body.size());
+            pasting = true;  // What comes of it is a name of its own.
         } else {
             out.push_back(body[i++]);
+            pasting = false;
         }
     }
     return out;

@@ -29,11 +29,40 @@ struct BodyLines {
     FlatSource::Origin origin(std::size_t i) const { return origins[i]; }
 };
 
+/// All of one place.
+BodyLines splitLines(std::string_view text, FlatSource::Origin origin);
+
+/// Lines of either kind.
+class CodeLines {
+public:
+    CodeLines(const SourceLines& lines) : ofSource_(&lines) {}
+    CodeLines(const BodyLines& lines) : ofBody_(&lines) {}
+    std::size_t size() const { return ofSource_ != nullptr ? ofSource_->size() : ofBody_->size(); }
+    std::string_view text(std::size_t i) const { return ofSource_ != nullptr ? ofSource_->text(i) : ofBody_->text(i); }
+    FlatSource::Origin origin(std::size_t i) const {
+        return ofSource_ != nullptr ? ofSource_->origin(i) : ofBody_->origin(i);
+    }
+    /// A body: what it leaves open goes on behind its call.
+    bool isBody() const { return ofBody_ != nullptr; }
+
+private:
+    const SourceLines* ofSource_ = nullptr;
+    const BodyLines* ofBody_ = nullptr;
+};
+
 struct CallArguments {
-    bool found = false;     ///< A '(' follows the name, and its ')' was found.
-    bool unclosed = false;  ///< A '(' follows, but no ')' before the end or the limit, or not in every branch.
+    enum class State {
+        None,      ///< No '(' follows the name.
+        Found,     ///< The ')' was found.
+        Crossing,  ///< A condition does not lie within one argument.
+        Cut,       ///< A branch ends before the ')', or another preprocessor line stands in front of it.
+        Unclosed   ///< No ')' before the end or the limit.
+    };
+    State state = State::None;
+    bool found() const { return state == State::Found; }
     std::vector<std::string> values;  ///< Conditions between the brackets are lines of their own.
     std::size_t line = 0, end = 0;    ///< Behind the ')'.
+    std::size_t bytes = 0;            ///< That were looked at.
 };
 
 /// Splits what stands between the brackets at commas outside of inner brackets, one character at a time.
@@ -41,9 +70,8 @@ class ArgumentReader {
 public:
     /// True while the call is open.
     bool read(std::string_view text, std::size_t& at);
-    /// A preprocessor line between the brackets stays a line of its argument. False when it cannot: it is no condition,
-    /// or belongs to one that began outside.
-    bool readLine(std::string_view text, LineKind kind);
+    /// A preprocessor line between the brackets stays a line of its argument. Found while it can.
+    CallArguments::State readLine(std::string_view text, LineKind kind);
     bool isOpen() const { return depth_ > 0; }
     /// False when a condition within an argument goes on behind it.
     bool isWhole() const { return whole_ && branches_.empty(); }
@@ -66,50 +94,16 @@ inline std::string_view withoutSplice(std::string_view code) {
 }
 
 /// A preprocessor line with the lines that continue it, without their backslashes; `line` becomes the last of them.
-template <class Lines>
-std::string joinContinued(const Lines& lines, std::size_t& line) {
-    std::string joined(lines.text(line));
-    while (joined.ends_with('\\') && line + 1 < lines.size()) {
-        joined.back() = ' ';
-        joined.append(lines.text(++line));
-    }
-    return joined;
-}
+std::string joinContinued(const CodeLines& lines, std::size_t& line);
 
 /// Arguments behind a macro's name, which ends at column `at` of line `line`.
-template <class Lines>
-CallArguments readArguments(const Lines& lines, std::size_t line, std::size_t at, std::size_t maxBytes) {
-    CallArguments result;
-    ArgumentReader reader;
-    for (; line < lines.size(); ++line, at = 0) {
-        const std::string_view text = lines.text(line);
-        if (const LineKind kind = at == 0 ? readDirective(text).kind : LineKind::Code; kind != LineKind::Code) {
-            const std::string whole = joinContinued(lines, line);
-            if (!reader.isOpen() || !reader.readLine(whole, kind)) break;
-            continue;
-        }
-        if (!reader.isOpen()) {
-            at = std::min(text.find_first_not_of(" \t", at), text.size());
-            if (at == text.size()) continue;
-            if (text[at] != '(') return result;
-        }
-        if (!reader.read(text, at)) {
-            result.found = reader.isWhole();
-            result.unclosed = !result.found;
-            if (result.unclosed) return result;
-            result.values = reader.take();
-            result.line = line;
-            result.end = at;
-            return result;
-        }
-        if (reader.bytes() > maxBytes) break;
-    }
-    result.unclosed = reader.isOpen();
-    return result;
-}
+CallArguments readArguments(const CodeLines& lines, std::size_t line, std::size_t at, std::size_t maxBytes);
 
 /// Fits the number of arguments: `f()` gives a macro without parameters none. False when they do not fit.
 bool matchArguments(const MacroDefinition& macro, std::vector<std::string>& arguments);
+
+/// Arguments of several lines that a body pastes: there is no line to paste them to.
+bool pastesLines(const MacroDefinition& macro, const CallArguments& arguments);
 
 /// An error at the call `where`.
 void reportUnclosed(std::string_view macro, const SourceLoc& where, Problems& problems);

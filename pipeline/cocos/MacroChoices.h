@@ -14,41 +14,50 @@ namespace crevice::cocos {
 
 class MacroChoices {
 public:
-    struct Choice {
+    /// Definitions of a name that conditions may choose between.
+    static constexpr std::size_t kMaxOfName = 250;
+
+    /// One of the definitions, with its number among those of its name, from 1.
+    struct Option {
         const MacroDefinition* macro = nullptr;
-        std::vector<DefinedPlaces::Place> places;  ///< Of the definition and of equal ones.
-        std::size_t number = 1;                    ///< Among the definitions of its name.
+        std::size_t number = 1;
     };
-    /// Returns the definition's number among those of its name, from 1. One `equal` to those above joins them.
-    std::size_t add(const MacroDefinition& macro, DefinedPlaces::Place place, bool equal) {
+    /// Returns the definition's number. One `equal` to those above joins them; one that is `certain` ends them.
+    std::size_t add(const MacroDefinition& macro, DefinedPlaces::Place place, bool equal, bool certain) {
         Name& name = choices_[macro.name];
         name.hoisted = name.hoisted || macro.fromPragma;
-        if (!equal || name.all.empty()) name.all.push_back({&macro, {}, name.all.size() + 1});
-        if (auto& places = name.all.back().places; places.size() < kMaxPlaces) places.push_back(std::move(place));
-        return name.all.size();
+        if (certain && !name.hoisted) {
+            name.all.clear();
+            name.undone = false;
+        }
+        if (!equal || name.all.empty()) name.all.push_back({{&macro, ++name.count}, {}, false});
+        Choice& last = name.all.back();
+        if (last.places.size() < kMaxPlaces)
+            last.places.push_back(std::move(place));
+        else
+            last.elsewhere = true;
+        return last.option.number;
     }
     bool contains(std::string_view name) const { return choices_.contains(name); }
     bool isTaken(std::string_view name) const { return std::find(taken_.begin(), taken_.end(), name) != taken_.end(); }
     bool isEmpty() const { return choices_.empty(); }
-    const std::vector<Choice>& of(std::string_view name) { return choices_[name].all; }
-    /// The definitions above that may hold here.
-    std::vector<Choice> possible(std::string_view name, const DefinedPlaces& places) const {
-        std::vector<Choice> found;
-        const auto it = choices_.find(name);
-        if (it == choices_.end()) return found;
-        for (const Choice& choice : it->second.all)
-            if (it->second.hoisted || std::any_of(choice.places.begin(), choice.places.end(),
-                                                  [&](const auto& place) { return !places.excludes(place); }))
-                found.push_back(choice);
-        return found;
+    /// All definitions above.
+    std::vector<Option> of(std::string_view name) const {
+        return find(name, [](const Choice&) { return true; });
+    }
+    /// Those that may hold here.
+    std::vector<Option> possible(std::string_view name, const DefinedPlaces& places) const {
+        return find(name, [&](const Choice& choice) {
+            return choice.elsewhere || std::any_of(choice.places.begin(), choice.places.end(),
+                                                   [&](const auto& place) { return !places.excludes(place); });
+        });
     }
     /// One of the definitions holds here whatever the conditions are.
     bool isSure(std::string_view name, const DefinedPlaces& places) const {
         const auto it = choices_.find(name);
         if (it == choices_.end() || it->second.hoisted || places.isSure(name)) return true;
         const auto holds = [&](const Choice& choice) {
-            return choice.places.size() == kMaxPlaces ||
-                   std::any_of(choice.places.begin(), choice.places.end(),
+            return std::any_of(choice.places.begin(), choice.places.end(),
                                [&](const auto& place) { return places.implies(place); });
         };
         return !it->second.undone && std::any_of(it->second.all.begin(), it->second.all.end(), holds);
@@ -74,11 +83,27 @@ public:
 
 private:
     static constexpr std::size_t kMaxPlaces = 16;
+    struct Choice {
+        Option option;
+        std::vector<DefinedPlaces::Place> places;  ///< Of the definition and of equal ones.
+        bool elsewhere = false;                    ///< There are more places than are kept.
+    };
     struct Name {
         std::vector<Choice> all;
+        std::size_t count = 0;
         bool hoisted = false;  ///< `#pragma define` holds for the whole stage.
         bool undone = false;
     };
+    template <class Accepts>
+    std::vector<Option> find(std::string_view name, Accepts accepts) const {
+        std::vector<Option> found;
+        const auto it = choices_.find(name);
+        if (it == choices_.end()) return found;
+        for (const Choice& choice : it->second.all)
+            if (it->second.hoisted || accepts(choice)) found.push_back(choice.option);
+        return found;
+    }
+
     std::unordered_map<std::string_view, Name> choices_;
     std::vector<std::string_view> taken_;
 };
@@ -92,15 +117,16 @@ struct StatementRest {
 
 /// Reads on from column `at` of line `line`. Not found when brackets cross, other preprocessor lines come between, the
 /// text is too long or `refuses` a part of it.
-template <class Lines, class Refuses>
-StatementRest readStatementRest(const Lines& lines, std::size_t line, std::size_t at, std::size_t maxBytes,
+template <class Refuses>
+StatementRest readStatementRest(const CodeLines& lines, std::size_t line, std::size_t at, std::size_t maxBytes,
                                 Refuses refuses) {
     StatementRest rest;
-    int depth = 0;
+    int depth = 0, conditions = 0;
     std::size_t bytes = 0;
     for (bool first = true; line < lines.size() && bytes <= maxBytes; ++line, at = 0, first = false) {
-        const std::string_view text = lines.text(line);
+        std::string text(lines.text(line));
         const LineKind kind = first ? LineKind::Code : readDirective(text).kind;
+        rest.lines.origins.push_back(lines.origin(line));
         std::size_t end = text.size();
         bool ends = false;
         if (kind == LineKind::Code) {
@@ -109,13 +135,19 @@ StatementRest readStatementRest(const Lines& lines, std::size_t line, std::size_
                 if (depth < 0) return rest;
                 ends = text[end] == ';' && depth == 0;
             }
-            if (refuses(text.substr(at, end - at))) return rest;
-        } else if (!isConditional(kind) || text.ends_with('\\')) {
+            if (ends && conditions > 0) return rest;
+            if (refuses(lines.text(line).substr(at, end - at))) return rest;
+        } else if (isConditional(kind)) {
+            const bool opens = kind == LineKind::If || kind == LineKind::Ifdef || kind == LineKind::Ifndef;
+            if (!opens && conditions == 0) return rest;
+            conditions += int(opens) - int(kind == LineKind::Endif);
+            text = joinContinued(lines, line);
+            end = text.size();
+        } else {
             return rest;
         }
-        rest.lines.texts.emplace_back(text.substr(at, end - at));
-        rest.lines.origins.push_back(lines.origin(line));
         bytes += end - at + 1;
+        rest.lines.texts.push_back(text.substr(at, end - at));
         rest.line = line;
         rest.end = end;
         rest.found = ends;

@@ -16,6 +16,11 @@ std::string_view namePartsAt(std::string_view text, std::size_t at) {
     return text.substr(at, end - at);
 }
 
+bool pastes(const MacroDefinition& macro) {
+    return std::any_of(macro.body.begin(), macro.body.end(),
+                       [](const auto& part) { return part.text.find("##") != std::string_view::npos; });
+}
+
 }  // namespace
 
 MacroTable::MacroTable(const SourceText& program, const Resolve& resolve, std::size_t maxSources) {
@@ -37,16 +42,23 @@ void MacroTable::visit(const SourceText& root, const Resolve& resolve, std::size
             const SourceText* next = resolve(source, rest);
             if (next != nullptr && !seen_.contains(next)) waiting.push_back(next);
         };
-        for (const SourceLine& line : source.lines)
+        for (const SourceLine& line : source.lines) {
             if (line.kind == LineKind::Include) follow(readDirective(line.text).rest);
+            if (line.kind == LineKind::Undef) undefined_.insert(leadingName(readDirective(line.text).rest));
+        }
         for (const MacroDefinition& macro : source.macros) {
             if (!macro.bearsDirectives) continue;
             for (const auto& part : macro.body)
                 if (const Directive directive = readDirective(part.text); directive.kind == LineKind::Include)
                     follow(directive.rest);
+                else if (directive.kind == LineKind::Undef)
+                    undefined_.insert(leadingName(directive.rest));
         }
     }
-    for (const MacroDefinition* macro : all_) byName_[macro->name].push_back(macro);
+    for (const MacroDefinition* macro : all_) {
+        byName_[macro->name].push_back(macro);
+        if (macro->fromPragma) hoisted_.push_back(macro->name);
+    }
 }
 
 void MacroTable::chooseExpanded() {
@@ -54,11 +66,61 @@ void MacroTable::chooseExpanded() {
         if (macro->bearsDirectives || macro->declares) expand(macro->name);
     for (const SourceText* source : sources_) carryAll(source->splitCalls);
     if (expanded_.empty()) return;
+    for (const MacroDefinition* macro : all_)
+        if (pastes(*macro)) expand(macro->name);  // It may write the name of one.
     for (int pass = 0; pass < kMaxPasses; ++pass) {
         expandCallers();
         chooseChosen();
         if (!expandAround()) break;
     }
+    findRecursive();
+    hidden_ = recursive_;
+    for (const MacroDefinition* macro : all_)
+        if (macro->bearsDirectives || macro->declares) hidden_.insert(macro->name);
+}
+
+/// What is left when names that no body leads to are taken away, and those whose bodies lead nowhere: cycles, and what
+/// stands between two of them.
+void MacroTable::findRecursive() {
+    std::unordered_map<std::string_view, std::unordered_set<std::string_view>> into, out;
+    for (const std::string_view name : expanded_) {
+        const auto callers = callers_.find(name);
+        if (callers == callers_.end()) continue;
+        for (const MacroDefinition* caller : callers->second)
+            if (expanded_.contains(caller->name)) {
+                into[name].insert(caller->name);
+                out[caller->name].insert(name);
+            }
+    }
+    recursive_ = expanded_;
+    constexpr std::string_view kAny;  // What is pasted may be any name.
+    for (const MacroDefinition* macro : all_) {
+        if (!pastes(*macro)) continue;
+        into[kAny].insert(macro->name);
+        out[macro->name].insert(kAny);
+    }
+    if (into.contains(kAny)) {
+        recursive_.insert(kAny);
+        out[kAny] = expanded_;
+        for (const std::string_view name : expanded_) into[name].insert(kAny);
+    }
+    const auto takeAway = [&](auto& edges, auto& back) {
+        std::vector<std::string_view> waiting;
+        for (const std::string_view name : recursive_)
+            if (edges[name].empty()) waiting.push_back(name);
+        while (!waiting.empty()) {
+            const std::string_view name = waiting.back();
+            waiting.pop_back();
+            recursive_.erase(name);
+            for (const std::string_view other : back[name]) {
+                edges[other].erase(name);
+                if (edges[other].empty() && recursive_.contains(other)) waiting.push_back(other);
+            }
+            back[name].clear();
+        }
+    };
+    takeAway(out, into);
+    takeAway(into, out);
 }
 
 void MacroTable::findCallers() {
@@ -217,8 +279,8 @@ std::size_t MacroTable::findCall(std::string_view text, std::size_t from) const 
         }
         std::size_t end = i + 1;
         while (end < text.size() && isNamePart(text[end])) ++end;
-        if (isNameStart(c) && firstLetters_[static_cast<unsigned char>(c) & 127u] &&
-            expanded_.contains(text.substr(i, end - i)))
+        if (isNameStart(c) && (i == 0 || text[i - 1] != kFinal) &&
+            firstLetters_[static_cast<unsigned char>(c) & 127u] && expanded_.contains(text.substr(i, end - i)))
             return i;
         i = end;
     }

@@ -31,6 +31,15 @@ public:
     bool isChosen(std::string_view name) const { return chosen_.contains(name); }
     /// True for a name with definitions that differ, wherever they stand.
     bool isRedefined(std::string_view name) const { return redefined_.contains(name); }
+    /// True when the bodies of an expanded name may lead to it again: within itself it is not expanded.
+    bool isRecursive(std::string_view name) const { return recursive_.contains(name); }
+    /// True for an expanded name that GLSL's preprocessor may not see the definition of. Others it may: conditions name
+    /// them too.
+    bool isHidden(std::string_view name) const { return hidden_.contains(name); }
+    /// An #undef of the name stands somewhere.
+    bool isUndefined(std::string_view name) const { return undefined_.contains(name); }
+    /// Macros of `#pragma define`.
+    const std::vector<std::string_view>& hoisted() const { return hoisted_; }
     /// Where the next name to be expanded stands in a line of code, from `from` on; npos = nowhere.
     std::size_t findCall(std::string_view text, std::size_t from) const;
 
@@ -43,6 +52,7 @@ private:
     bool carryAll(const std::unordered_set<std::string_view>& names);
     void chooseChosen();
     void findRedefined();
+    void findRecursive();
     void expand(std::string_view name);
     std::unordered_set<std::string_view> findSplitting() const;
 
@@ -51,7 +61,8 @@ private:
     std::unordered_set<const SourceText*> seen_;
     std::unordered_map<std::string_view, std::vector<const MacroDefinition*>> byName_;
     std::unordered_map<std::string_view, std::vector<const MacroDefinition*>> callers_;  ///< In whose body it stands.
-    std::unordered_set<std::string_view> expanded_, chosen_, redefined_;
+    std::unordered_set<std::string_view> expanded_, chosen_, redefined_, recursive_, hidden_, undefined_;
+    std::vector<std::string_view> hoisted_;
     std::vector<std::string_view> unfollowed_;       ///< Expanded names whose callers are to be expanded too.
     std::unordered_set<std::string_view> carrying_;  ///< Between whose brackets preprocessor lines come to stand.
     std::array<bool, 128> firstLetters_{};           ///< Of the expanded names: most words are passed over by one look.

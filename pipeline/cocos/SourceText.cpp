@@ -245,19 +245,22 @@ private:
 }  // namespace
 
 bool OpenCalls::readBack(std::string_view text) {
-    for (std::size_t at = text.size(); at-- > 0;) {
-        if (text[at] == ';' || text[at] == '{' || text[at] == '}') return false;
-        if (text[at] == ')') ++closed_;
-        if (text[at] != '(') continue;
-        if (closed_ > 0) {
-            --closed_;
-            continue;
-        }
-        std::size_t end = at;
+    const auto takeName = [&](std::size_t end) {
         while (end > 0 && isBlank(text[end - 1])) --end;
         std::size_t begin = end;
         while (begin > 0 && isNamePart(text[begin - 1])) --begin;
         if (begin < end) names_.insert(text.substr(begin, end - begin));
+        nameAbove_ = end == 0;
+    };
+    if (nameAbove_) takeName(text.size());
+    for (std::size_t at = text.size(); at-- > 0;) {
+        if (text[at] == ';' || text[at] == '{' || text[at] == '}') return false;
+        if (text[at] == ')') ++closed_;
+        if (text[at] != '(') continue;
+        if (closed_ == 0)
+            takeName(at);
+        else
+            --closed_;
     }
     return true;
 }

@@ -93,6 +93,7 @@ public:
 private:
     std::unordered_set<std::string_view>& names_;
     std::size_t closed_ = 0;
+    bool nameAbove_ = false;  ///< In front of a '(' that begins a line.
 };
 constexpr std::size_t kMostCallLines = 200;  ///< That one call reaches over, where conditions stand in it.
 
@@ -101,6 +102,9 @@ bool isCodeLine(const SourceText& source, std::size_t at);
 
 /// `#define NAME(parameters) body` in one line.
 std::string defineLine(const MacroDefinition& macro);
+
+/// Stands in front of a macro's name that is not expanded any more, while its line is put together.
+constexpr char kFinal = '\1';
 
 std::string_view trimBlank(std::string_view text);
 /// The name at the front of a text, or nothing.
