@@ -117,18 +117,12 @@ std::optional<std::vector<StageCode>> translateEach(std::span<const StageSource>
 }  // namespace
 
 struct ShaderCompiler::Process {
-    Process() {
-        glslang::InitializeProcess();
-        translator.emplace();
-    }
-    ~Process() {
-        translator.reset();
-        glslang::FinalizeProcess();
-    }
+    Process() { glslang::InitializeProcess(); }
+    ~Process() { glslang::FinalizeProcess(); }
     Process(const Process&) = delete;
     Process& operator=(const Process&) = delete;
 
-    std::optional<StageTranslator> translator;
+    StageTranslator translator;
 };
 
 ShaderCompiler::ShaderCompiler() = default;
@@ -139,7 +133,7 @@ std::vector<StageCode> ShaderCompiler::compile(std::span<const StageSource> sour
     if (!process_) process_ = std::make_unique<Process>();
     const bool numbered = std::all_of(sources.begin(), sources.end(), [](const auto& s) { return s.numbered; });
     if (numbered)
-        if (auto code = translateEach(sources, *process_->translator)) return std::move(*code);
+        if (auto code = translateEach(sources, process_->translator)) return std::move(*code);
     Problems own;
     const auto fail = [&] {
         if (own.hasErrors()) problems.add(Error(own.all()));

@@ -40,6 +40,14 @@ constexpr std::array<EShLanguage, 3> kLanguages{EShLangVertex, EShLangFragment, 
 
 std::size_t indexOf(ShaderStageBits stage) { return stage == kVertexBit ? 0 : stage == kFragmentBit ? 1 : 2; }
 
+/// glslang counts those that use it.
+struct Process {
+    Process() { InitializeProcess(); }
+    ~Process() { FinalizeProcess(); }
+    Process(const Process&) = delete;
+    Process& operator=(const Process&) = delete;
+};
+
 /// All that glslang allocates meanwhile comes from one pool and goes with the end of this.
 class PoolScope {
 public:
@@ -92,19 +100,27 @@ bool declare(const TString& text, EShLanguage language, TSymbolTable& symbols) {
     return parser.context.parseShaderStrings(parser.preprocessor, input);
 }
 
-/// Nothing in the text asks for a macro that is defined in front of it.
-bool needsNoPreamble(std::string_view text) {
-    for (std::size_t at = 0; (at = text.find("GL_", at)) != std::string_view::npos; ++at) {
-        constexpr std::string_view kExtension = "#extension ";  // names one without expanding it
-        if (at < kExtension.size() || text.substr(at - kExtension.size(), kExtension.size()) != kExtension)
-            return false;
-    }
-    return text.find("VULKAN") == std::string_view::npos && text.find("##") == std::string_view::npos;
+bool isNamePart(char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
+}
+
+/// A name in the text begins so, but for those that an #extension line names.
+bool hasName(std::string_view text, std::string_view front) {
+    constexpr std::string_view kExtension = "#extension ";
+    for (std::size_t at = 0; (at = text.find(front, at)) != std::string_view::npos; at += front.size())
+        if ((at == 0 || !isNamePart(text[at - 1])) && !text.substr(0, at).ends_with(kExtension)) return true;
+    return false;
+}
+
+/// False where nothing in the text asks for a macro that glslang defines in front of it.
+bool needsPreamble(std::string_view text) {
+    return hasName(text, "GL_") || hasName(text, "VULKAN") || text.find("##") != std::string_view::npos;
 }
 
 }  // namespace
 
 struct StageTranslator::State {
+    const Process process;
     TPoolAllocator kept;     ///< What the tables are in: it outlives them.
     TPoolAllocator passing;  ///< Of one shader.
     /// The levels of glslang's own tables: of all stages, of one stage, of one with a device's limits. Read-only.
@@ -172,12 +188,14 @@ std::optional<std::vector<std::uint32_t>> StageTranslator::translate(ShaderStage
         parser.context.setLimits(*GetDefaultResources());
         parser.context.initializeExtensionBehavior();
         std::string preamble;
-        if (!needsNoPreamble(text)) parser.context.getPreamble(preamble);
-        // As TShader has it: what stands in front of the shader, the shader, and something, lest it be empty.
+        if (needsPreamble(text)) parser.context.getPreamble(preamble);
+        // As TShader has it: what stands in front of the shader, the shader, and something, lest it be empty. The
+        // scanner wants no empty string at the front.
         constexpr std::string_view kLast = "\n int;";
-        std::array<const char*, 4> starts{preamble.c_str(), "", text.c_str(), kLast.data()};
-        std::array<std::size_t, 4> lengths{preamble.size(), 0, text.size(), kLast.size()};
-        TInputScanner input(4, starts.data(), lengths.data(), nullptr, 2, 1);
+        std::array<const char*, 3> starts{preamble.c_str(), text.c_str(), kLast.data()};
+        std::array<std::size_t, 3> lengths{preamble.size(), text.size(), kLast.size()};
+        const int first = preamble.empty() ? 1 : 0;
+        TInputScanner input(3 - first, starts.data() + first, lengths.data() + first, nullptr, 1 - first, 1);
         symbols.push();
         if (!parser.context.parseShaderStrings(parser.preprocessor, input)) return std::nullopt;
         if (tree.getTreeRoot() == nullptr || !tree.postProcess(tree.getTreeRoot(), language)) return std::nullopt;

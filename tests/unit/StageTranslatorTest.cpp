@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "effect/ShaderCompiler.h"
+#include "effect/StageTranslator.h"
 
 namespace crevice {
 namespace {
@@ -38,6 +39,17 @@ void expectSame(ShaderCompiler& compiler, ShaderStageBits stage, const std::stri
     EXPECT_FALSE(quick.words.empty()) << quick.messages;
     EXPECT_EQ(quick.words, plain.words);
     EXPECT_EQ(quick.messages, "");
+}
+
+TEST(StageTranslator, AllStagesGoTheShortWay) {
+    StageTranslator translator;
+    const std::string version = "#version 450\n";
+    EXPECT_TRUE(translator.translate(kVertexBit, version + "void main() { gl_Position = vec4(1.0); }\n"));
+    EXPECT_TRUE(translator.translate(kFragmentBit, version + "void main() { discard; }\n"));
+    EXPECT_TRUE(translator.translate(kComputeBit, version + "layout(local_size_x = 8) in;\nvoid main() {}\n"));
+    EXPECT_TRUE(translator.translate(kVertexBit, version + "#if GL_core_profile\nvoid main() {}\n#endif\n"));
+    EXPECT_FALSE(translator.translate(kVertexBit, version + "void main() { wrong }\n"));
+    EXPECT_FALSE(translator.translate(kVertexBit, "void main() {}\n")) << "without a version";
 }
 
 TEST(StageTranslator, VertexStagesAreTheSameToTheBit) {
@@ -87,8 +99,9 @@ TEST(StageTranslator, ComputeStagesAreTheSameToTheBit) {
 
 TEST(StageTranslator, MacrosOfTheCompilerKeepTheirValues) {
     ShaderCompiler compiler;
-    for (const char* condition : {"GL_core_profile", "VULKAN == 100", "GL_KHR_shader_subgroup_basic", "defined(GL_ES)",
-                                  "__VERSION__ == 450", "defined(VULKAN)"})
+    for (const char* condition :
+         {"GL_core_profile", "VULKAN_WORDS + 1", "MY_GL_WORDS + 1", "VULKAN == 100", "GL_KHR_shader_subgroup_basic",
+          "defined(GL_ES)", "__VERSION__ == 450", "defined(VULKAN)"})
         expectSame(compiler, kVertexBit,
                    std::string("#if ") + condition +
                        "\nvoid main() { gl_Position = vec4(1.0); }\n#else\nvoid main() {}\n#endif\n");
