@@ -13,6 +13,13 @@ constexpr int kFloat = 13, kFloat4 = 16, kSampler2D = 28;
 /// FLOAT … FLOAT4, INT … INT4, UINT … UINT4, BOOL … BOOL4: how many components; 0 = no vector.
 int componentsOf(int type) { return type >= 1 && type <= kFloat4 ? (type - 1) % 4 + 1 : 0; }
 
+/// Numbers in a default: of a vector its components, of MAT2 … MAT4 (17 … 25, columns of 2 to 4) rows times columns.
+int numbersIn(int type) {
+    constexpr int kFirstMatrix = 17, kLastMatrix = 25;
+    if (type < kFirstMatrix || type > kLastMatrix) return componentsOf(type);
+    return ((type - kFirstMatrix) / 3 + 2) * ((type - kFirstMatrix) % 3 + 2);
+}
+
 struct Target {
     std::string uniform;
     int offset = 0;      ///< In components.
@@ -135,9 +142,9 @@ private:
             all.set(target.uniform, std::move(made));
         }
         Value& entry = *all.find(target.uniform);
-        if (componentsOf(type) > 0 && entry.find("value") == nullptr) {
+        if (numbersIn(type) > 0 && entry.find("value") == nullptr) {
             Value zeros = Value::makeArray();
-            zeros.items().assign(static_cast<std::size_t>(componentsOf(type)), Value::makeInteger(0));
+            zeros.items().assign(static_cast<std::size_t>(numbersIn(type)), Value::makeInteger(0));
             entry.set("value", std::move(zeros));
         }
         if (fed.value == nullptr) return;

@@ -117,10 +117,20 @@ private:
         return all;
     }
 
+    int bindingOf(const InterfaceDeclaration& declaration) const { return numbers_.slots.at(declaration.name).binding; }
+
+    /// A sampler for devices without subpass inputs has the input's number, and the input speaks for both.
+    bool standsInForSubpassInput(const InterfaceDeclaration& sampler) const {
+        const auto inputs = resources(InterfaceKind::SubpassInput, Builtin::None);
+        return std::any_of(inputs.begin(), inputs.end(),
+                           [&](const Resource& input) { return bindingOf(*input.first) == bindingOf(sampler); });
+    }
+
     Value material(InterfaceKind kind) const {
         Value list = Value::makeArray();
         for (const Resource& resource : resources(kind, Builtin::None)) {
             const InterfaceDeclaration& declaration = *resource.first;
+            if (kind == InterfaceKind::CombinedSampler && standsInForSubpassInput(declaration)) continue;
             const bool typed = kind == InterfaceKind::CombinedSampler || kind == InterfaceKind::Texture ||
                                kind == InterfaceKind::Image;
             Value item = Value::makeObject();
@@ -132,7 +142,7 @@ private:
                 item.set("memoryAccess", number(declaration.readOnly ? 1 : declaration.writeOnly ? 2 : 3));
             item.set("defines", materialConditions(*resource.text, declaration));
             item.set("stageFlags", number(resource.stages));
-            item.set("binding", number(numbers_.slots.at(declaration.name).binding));
+            item.set("binding", number(bindingOf(declaration)));
             if (kind == InterfaceKind::Block) item.set("members", members(declaration));
             append(list, std::move(item));
         }

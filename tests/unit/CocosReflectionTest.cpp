@@ -119,6 +119,21 @@ TEST(CocosReflection, Resources) {
     for (const char* none : {"samplers", "textures", "subpassInputs"}) expectPart(shader, none, "[]");
 }
 
+TEST(CocosReflection, ASubpassInputSpeaksForTheSamplerOfItsNumber) {
+    Problems problems;
+    const Value shader =
+        reflectShader("s|v|f",
+                      {stageText(kFragmentBit,
+                                 "layout(input_attachment_index = 0, binding = 1) uniform subpassInput near;\n"
+                                 "layout(binding = 1) uniform sampler2D nearMap;\nuniform sampler2D noise;\n"
+                                 "readonly buffer b_lamps { vec4 lamps[]; };\n")},
+                      problems);
+    expectPart(shader, "samplerTextures",
+               R"([{"name":"noise","type":28,"count":1,"defines":[],"stageFlags":16,"binding":0}])");
+    expectPart(shader, "buffers", R"([{"name":"b_lamps","memoryAccess":1,"defines":[],"stageFlags":16,"binding":2}])");
+    expectPart(shader, "subpassInputs", R"([{"name":"near","count":1,"defines":[],"stageFlags":16,"binding":1}])");
+}
+
 TEST(CocosReflection, Builtins) {
     // Registers of all branches: CCLocalBatched 40, CCGlobal 1, Constants 1 + 20 + 3 + 1 + 1; Frag 2, Constants 1.
     expectPart(reflected(), "builtins",
@@ -168,7 +183,7 @@ TEST(CocosReflection, MacrosInSizesAreTheirWords) {
 
 const UniformTypes kUniforms = {
     {"albedo", 16}, {"scaleAndCutoff", 16}, {"params", 16}, {"albedoMap", 28}, {"mainColor", 16},
-    {"sky", 31},    {"last", 13},           {"mode", 6}};
+    {"sky", 31},    {"last", 13},           {"mode", 6},    {"turn", 17},      {"lens", 25}};
 
 void expectProperties(const std::string& yaml, const std::string& json) {
     EXPECT_EQ(reflectProperties(parseYaml(yaml, "written"), kUniforms).toJson(-1),
@@ -199,6 +214,14 @@ TEST(CocosReflection, TargetsGetHandlesAndAMergedDefault) {
                          "scaleAndCutoff":{"type":16,"value":[2,3,4,0.5]},
                          "params":{"type":16,"value":[0,0,0.6,0]},
                          "albedoMap":{"type":28,"value":"grey"}})");
+}
+
+TEST(CocosReflection, MatricesAreTargetsToo) {
+    expectProperties("mirror: { value: [1, 0, 0, -1], target: turn }\nfocus: { target: lens }\n",
+                     R"({"mirror":{"value":[1,0,0,-1],"type":17,"handleInfo":["turn",0,17]},
+                         "focus":{"type":25,"handleInfo":["lens",0,25]},
+                         "turn":{"type":17,"value":[1,0,0,-1]},
+                         "lens":{"type":25,"value":[0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0]}})");
 }
 
 TEST(CocosReflection, WhatTheEditorIsToldOfAllIsNoProperty) {
