@@ -11,7 +11,23 @@ fs::path orItself(const fs::path& folder, const fs::path& below) {
     return !folder.empty() && fs::is_directory(folder / below, error) ? folder / below : folder;
 }
 
+bool holdsAssets(const fs::path& folder) {
+    std::error_code error;
+    return fs::is_directory(folder / "editor" / "assets", error);
+}
+
 }  // namespace
+
+fs::path engineFolder(const fs::path& given) {
+    if (given.empty() || holdsAssets(given)) return given;
+    for (const char* below :
+         {"resources/3d/engine", "resources/resources/3d/engine", "Contents/Resources/resources/3d/engine"})
+        if (holdsAssets(given / below)) return given / below;
+    std::error_code error;
+    for (fs::path at = fs::weakly_canonical(given, error); at.has_relative_path(); at = at.parent_path())
+        if (at.filename() == "editor" && holdsAssets(at.parent_path())) return at.parent_path();
+    return given;
+}
 
 fs::path Roots::projectAssets() const { return orItself(project, "assets"); }
 

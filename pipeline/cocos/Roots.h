@@ -23,4 +23,9 @@ struct Roots {
     std::vector<std::filesystem::path> chunkFolders() const;
 };
 
+/// The engine that a user means: a folder that holds `editor/assets`, or an installed editor's
+/// `resources/3d/engine` below the given one; or the engine around it, when it is `editor` or lies within. Else the
+/// given folder itself.
+std::filesystem::path engineFolder(const std::filesystem::path& given);
+
 }  // namespace crevice::cocos

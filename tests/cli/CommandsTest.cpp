@@ -172,6 +172,8 @@ TEST_F(CommandsTest, EffectsCompileReadsCocosFolders) {
     EXPECT_TRUE(has(bad.out, "FAILED ")) << bad.out;
     EXPECT_TRUE(has(bad.out, ": not declared: v_missing with USE_PLACE (but good.effect:15 with USE_OTHER)\n"))
         << bad.out;
+    EXPECT_TRUE(has(bad.out, "0 compiled, 1 failed, 1 of them use what their source does not declare; 1 effect\n"))
+        << bad.out;
     EXPECT_TRUE(has(bad.err, "good.effect:19:")) << bad.err;
     const json missing = json::parse(run("effects compile good --engine engine --define USE_PLACE=1 --json").out);
     EXPECT_EQ(missing["passes"][0]["undeclared"][0]["name"], "v_missing");

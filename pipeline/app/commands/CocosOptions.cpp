@@ -52,7 +52,9 @@ void addCocosProjectOptions(CLI::App& command, CocosProjectOptions& options) {
     command.add_option("--chunks", options.chunks, "Folder of chunks that is searched first (repeatable)")
         ->type_name("DIR")
         ->allow_extra_args(false);
-    command.add_option("--cocos-version", options.version, "Version of a .rpp, such as 3.3.1; default as the engine or project says")
+    command
+        .add_option("--cocos-version", options.version,
+                    "Version of a .rpp, such as 3.3.1; default as the engine or project says")
         ->type_name("VERSION");
 }
 
@@ -61,7 +63,7 @@ bool isCocosScene(const std::string& nameOrPath) { return nameOrPath.ends_with("
 
 CocosProject::CocosProject(const CocosProjectOptions& options, const std::string& file) : version_(options.version) {
     roots_.project = checkFolder("--project", options.project);
-    roots_.engine = checkFolder("--engine", options.engine);
+    roots_.engine = cocos::engineFolder(checkFolder("--engine", options.engine));
     for (const std::string& folder : options.chunks) roots_.chunks.push_back(checkFolder("--chunks", folder));
     if (options.project.empty() && !file.empty()) roots_.project = cocos::findProjectFolder(file).value_or(fs::path());
 }

@@ -93,7 +93,7 @@ bool readsCocos(const CocosOptions& options, const std::vector<std::string>& eff
 cocos::Roots cocosRoots(const CocosOptions& options, const std::vector<std::string>& effects) {
     cocos::Roots roots;
     for (const std::string& folder : options.chunks) roots.chunks.push_back(existingFolder("--chunks", folder));
-    roots.engine = existingFolder("--engine", options.engine);
+    roots.engine = cocos::engineFolder(existingFolder("--engine", options.engine));
     roots.project = existingFolder("--project", options.project);
     for (const std::string& effect : effects) {
         if (!effect.ends_with(".effect")) continue;

@@ -77,6 +77,7 @@ void EffectReport::success(const VariantRequest& request, const EffectPass& pass
 void EffectReport::failure(const VariantRequest& request, const EffectPass& pass, const Error& error,
                            const std::vector<MissingName>& missing) {
     ++failed_;
+    if (!missing.empty()) ++undeclared_;
     if (json_) {
         Json result = passJson(request, pass, false);
         result["message"] = formatError(error);
@@ -111,8 +112,11 @@ void EffectReport::finish(std::size_t effects, bool cocos) const {
     } else if (json_) {
         print(passes_.dump(2) + "\n");
     } else if (!text_) {
-        print(
-            fmt::format("{} compiled, {} failed; {} effect{}\n", compiled_, failed_, effects, effects == 1 ? "" : "s"));
+        const std::string reason = cocos && undeclared_ > 0
+                                       ? fmt::format(", {} of them use what their source does not declare", undeclared_)
+                                       : "";
+        print(fmt::format("{} compiled, {} failed{}; {} effect{}\n", compiled_, failed_, reason, effects,
+                          effects == 1 ? "" : "s"));
     }
 }
 

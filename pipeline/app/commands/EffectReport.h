@@ -34,6 +34,7 @@ private:
     bool json_, text_;
     const Log& log_;
     std::size_t compiled_ = 0, failed_ = 0;
+    std::size_t undeclared_ = 0;  ///< Of the failed: passes whose source lacks a declaration.
     Json passes_ = Json::array(), effects_ = Json::array();
 };
 

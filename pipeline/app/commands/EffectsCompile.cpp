@@ -216,6 +216,9 @@ void chooseEffects(CompileOptions& options) {
     const std::filesystem::path engine = roots.engine.empty() ? roots.engine : roots.engineAssets() / "effects";
     for (const std::filesystem::path& folder : {roots.projectAssets(), engine})
         if (std::filesystem::is_directory(folder, error)) options.effects.push_back(folder.string());
+    if (options.effects.empty() && !roots.engine.empty())
+        throw Error(fmt::format("--engine: '{}' holds no effects of an engine", options.cocos.engine),
+                    "name the folder that holds editor/assets/effects");
     if (options.effects.empty()) throw Error("no effect given", "name one: crevice effects compile ssao");
 }
 
