@@ -69,7 +69,8 @@ bool Flattener::expandChoices(const CodeLines& lines, Cursor& cursor, std::strin
     const SourceText& source = *choices.front().macro->source;
     const Origin origin = lines.origin(cursor.line);
     CallArguments arguments;
-    if (std::any_of(choices.begin(), choices.end(), [](const auto& one) { return one.macro->functionLike; }))
+    if (std::any_of(choices.begin(), choices.end(),
+                    [&](const auto& one) { return one.macro->functionLike || endsInName(*one.macro); }))
         arguments = takeArguments(lines, cursor, name);
     const bool pastes = std::any_of(choices.begin(), choices.end(),
                                     [&](const auto& one) { return pastesLines(*one.macro, arguments); });
@@ -109,6 +110,14 @@ bool Flattener::expandChoices(const CodeLines& lines, Cursor& cursor, std::strin
     return true;
 }
 
+bool Flattener::endsInName(const MacroDefinition& macro) const {
+    if (macro.body.empty()) return false;
+    const std::string_view text = trimBlank(macro.body.back().text);
+    std::size_t begin = text.size();
+    while (begin > 0 && isNamePart(text[begin - 1])) --begin;
+    return table_->isExpanded(text.substr(begin));
+}
+
 bool Flattener::expandChoice(const MacroDefinition& macro, const CallArguments& arguments, Origin origin,
                              Pending& pending) {
     std::vector<std::string> values = arguments.values;
@@ -119,8 +128,10 @@ bool Flattener::expandChoice(const MacroDefinition& macro, const CallArguments& 
     else
         ended = expand(macro, called ? values : std::vector<std::string>{}, origin, pending);
     if (called || !arguments.found()) return ended;
-    writeLines(splitLines(fmt::format("({})", fmt::join(arguments.values, ", ")), origin), pending, *macro.source,
-               false);
+    const std::string_view name = trailingName(pending);
+    pending.text.resize(pending.text.size() - name.size());
+    writeLines(splitLines(fmt::format("{}({})", name, fmt::join(arguments.values, ", ")), origin), pending,
+               *macro.source, false);
     return false;
 }
 

@@ -37,11 +37,16 @@ bool Flattener::addOpenChoices(std::string_view text, std::vector<std::string_vi
 }
 
 bool Flattener::isHeadChoice(std::string_view name) {
+    const auto declares = [&](std::string_view call) {
+        const MacroDefinition* macro = table_->find(call);
+        return macro != nullptr && macro->declares ? Visited::Found : Visited::Enter;
+    };
     const auto choices = choices_.of(name);
     return std::any_of(choices.begin(), choices.end(), [&](const auto& choice) {
-        const MacroDefinition* macro = choice.macro;
-        return macro->declares || (!macro->bearsDirectives && macro->body.size() == 1 &&
-                                   table_->findCall(macro->body[0].text, 0) != std::string_view::npos);
+        const MacroDefinition& macro = *choice.macro;
+        if (macro.declares) return true;
+        std::unordered_set<std::string_view> seen;
+        return !macro.bearsDirectives && macro.body.size() == 1 && visitCalls(macro.body[0].text, seen, declares);
     });
 }
 

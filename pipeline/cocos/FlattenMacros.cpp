@@ -100,7 +100,7 @@ CallArguments Flattener::takeArguments(const CodeLines& lines, Cursor cursor, st
     CallArguments arguments = readArguments(lines, cursor.line, cursor.column, limits_.maxArgument);
     if (!arguments.found()) refused_ += arguments.bytes;
     if (!stopped_ && (arguments.state == CallArguments::State::Unclosed || refused_ > kMaxRefused)) {
-        reportUnclosed(name, callPlace_, problems_);
+        reportUnclosed(name, arguments.bytes > limits_.maxArgument ? limits_.maxArgument : 0, callPlace_, problems_);
         stopped_ = true;  // The next would look through as many lines again.
     }
     return arguments;
@@ -134,8 +134,7 @@ std::string_view Flattener::trailingName(const Pending& pending) const {
     while (begin > 0 && isNamePart(pending.text[begin - 1])) --begin;
     if (begin > 0 && pending.text[begin - 1] == kFinal) return {};
     const MacroDefinition* macro = table_->find(std::string_view(pending.text).substr(begin));
-    if (macro == nullptr || !table_->isExpanded(macro->name) || table_->isRecursive(macro->name)) return {};
-    return macro->name;
+    return macro != nullptr && table_->isExpanded(macro->name) ? macro->name : std::string_view();
 }
 
 bool Flattener::isStatements(const MacroDefinition& macro) const {

@@ -122,6 +122,8 @@ private:
     /// Writes a declaration with its chosen head once for each.
     void expandDeclaration(std::string_view head, const StatementRest& rest, Origin origin, Pending& pending);
 
+    /// True when the body ends in the name of a macro that brackets behind the call may call.
+    bool endsInName(const MacroDefinition& macro) const;
     /// One of the definitions: those without parameters leave the brackets standing, those with them need brackets.
     bool expandChoice(const MacroDefinition& macro, const CallArguments& arguments, Origin origin, Pending& pending);
 

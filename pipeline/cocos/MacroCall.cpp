@@ -113,10 +113,9 @@ bool pastesLines(const MacroDefinition& macro, const CallArguments& arguments) {
            std::any_of(macro.body.begin(), macro.body.end(), isPasted);
 }
 
-void reportUnclosed(std::string_view macro, const SourceLoc& where, Problems& problems) {
-    problems.error(where, fmt::format("the call of macro '{}' is not closed", macro),
-                   "a ')' is missing, or it is not one in every branch: a condition between the brackets "
-                   "lies within one argument");
+void reportUnclosed(std::string_view macro, std::size_t limit, const SourceLoc& where, Problems& problems) {
+    const std::string within = limit > 0 ? fmt::format(" within {} KB", limit >> 10) : std::string();
+    problems.error(where, fmt::format("the call of macro '{}' is not closed{}", macro, within), "a ')' is missing");
 }
 
 void reportArguments(const MacroDefinition& macro, std::size_t given, const SourceLoc& where, Problems& problems) {

@@ -105,8 +105,8 @@ bool matchArguments(const MacroDefinition& macro, std::vector<std::string>& argu
 /// Arguments of several lines that a body pastes: there is no line to paste them to.
 bool pastesLines(const MacroDefinition& macro, const CallArguments& arguments);
 
-/// An error at the call `where`.
-void reportUnclosed(std::string_view macro, const SourceLoc& where, Problems& problems);
+/// An error at the call `where`. `limit` bytes were looked through; 0 = to the end.
+void reportUnclosed(std::string_view macro, std::size_t limit, const SourceLoc& where, Problems& problems);
 void reportArguments(const MacroDefinition& macro, std::size_t given, const SourceLoc& where, Problems& problems);
 
 /// A preprocessor line over several lines as one, without their backslashes.

@@ -36,21 +36,25 @@ void MacroTable::visit(const SourceText& root, const Resolve& resolve, std::size
         waiting.pop_back();
         if (!seen_.insert(&source).second) continue;
         sources_.push_back(&source);
-        for (const MacroDefinition& macro : source.macros)
+        for (const MacroDefinition& macro : source.macros) {
             if (!macro.dead) all_.push_back(&macro);
-        const auto follow = [&](std::string_view rest) {
+            if (macro.conditional || conditional_.contains(&source)) uncertain_.insert(macro.name);
+        }
+        const auto follow = [&](std::string_view rest, bool conditional) {
             const SourceText* next = resolve(source, rest);
-            if (next != nullptr && !seen_.contains(next)) waiting.push_back(next);
+            if (next == nullptr || seen_.contains(next)) return;
+            if (conditional || conditional_.contains(&source)) conditional_.insert(next);
+            waiting.push_back(next);
         };
         for (const SourceLine& line : source.lines) {
-            if (line.kind == LineKind::Include) follow(readDirective(line.text).rest);
+            if (line.kind == LineKind::Include) follow(readDirective(line.text).rest, line.conditional);
             if (line.kind == LineKind::Undef) undefined_.insert(leadingName(readDirective(line.text).rest));
         }
         for (const MacroDefinition& macro : source.macros) {
             if (!macro.bearsDirectives) continue;
             for (const auto& part : macro.body)
                 if (const Directive directive = readDirective(part.text); directive.kind == LineKind::Include)
-                    follow(directive.rest);
+                    follow(directive.rest, true);
                 else if (directive.kind == LineKind::Undef)
                     undefined_.insert(leadingName(directive.rest));
         }
@@ -173,6 +177,9 @@ bool MacroTable::carryAll(const std::unordered_set<std::string_view>& names) {
 /// What becomes more than one line when it is written out.
 std::unordered_set<std::string_view> MacroTable::findSplitting() const {
     std::unordered_set<std::string_view> splitting = chosen_;
+    for (const auto* names : {&uncertain_, &undefined_})
+        for (const std::string_view name : *names)
+            if (expanded_.contains(name)) splitting.insert(name);
     for (const MacroDefinition* macro : all_)
         if (macro->bearsDirectives) splitting.insert(macro->name);
     const auto leads = [&](const MacroDefinition& macro) {

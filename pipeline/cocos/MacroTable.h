@@ -62,6 +62,8 @@ private:
     std::unordered_map<std::string_view, std::vector<const MacroDefinition*>> byName_;
     std::unordered_map<std::string_view, std::vector<const MacroDefinition*>> callers_;  ///< In whose body it stands.
     std::unordered_set<std::string_view> expanded_, chosen_, redefined_, recursive_, hidden_, undefined_;
+    std::unordered_set<std::string_view> uncertain_;     ///< Defined in conditions.
+    std::unordered_set<const SourceText*> conditional_;  ///< Included in conditions.
     std::vector<std::string_view> hoisted_;
     std::vector<std::string_view> unfollowed_;       ///< Expanded names whose callers are to be expanded too.
     std::unordered_set<std::string_view> carrying_;  ///< Between whose brackets preprocessor lines come to stand.

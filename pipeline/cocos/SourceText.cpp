@@ -143,6 +143,7 @@ private:
         while (at + line.span < source_.lines.size() && endsWithBackslash(source_.lines[at + line.span - 1].text))
             ++line.span;
         if (isConditional(line.kind)) readConditional(directive);
+        line.conditional = isInCondition();
         if (line.kind == LineKind::Define) readMacro(at, directive.rest, false);
         if (line.kind == LineKind::Pragma && leadingName(directive.rest) == "define") {
             const std::string_view tail = trimBlank(directive.rest.substr(6));
@@ -167,6 +168,8 @@ private:
         if (opens) open_.emplace_back();
         if (open_.empty()) return;
         Branch& branch = open_.back();
+        branch.guarded = directive.kind == LineKind::Ifndef ? leadingName(directive.rest) : std::string_view();
+        branch.isGuard = false;
         std::optional<bool> taken;
         if (directive.kind == LineKind::If || directive.kind == LineKind::Elif)
             taken = decideByVersion(directive.rest);
@@ -176,11 +179,17 @@ private:
         if (taken == true) branch.decided = true;
     }
 
+    bool isInCondition() const {
+        return std::any_of(open_.begin(), open_.end(), [](const Branch& branch) { return !branch.isGuard; });
+    }
+
     void readMacro(std::size_t at, std::string_view rest, bool fromPragma) {
         MacroDefinition macro;
         macro.name = leadingName(rest);
         if (macro.name.empty()) return;
         macro.fromPragma = fromPragma;
+        macro.conditional = isInCondition();
+        if (!open_.empty() && open_.back().guarded == macro.name) open_.back().isGuard = true;
         macro.dead = std::any_of(open_.begin(), open_.end(), [](const Branch& branch) { return branch.dead; });
         rest.remove_prefix(macro.name.size());
         if (rest.starts_with('(')) {
@@ -236,6 +245,8 @@ private:
     struct Branch {
         bool decided = false;  ///< An earlier branch, or this one, is taken for certain.
         bool dead = false;
+        bool isGuard = false;  ///< It asks for the absence of a name that it defines.
+        std::string_view guarded;
     };
     SourceText& source_;
     int firstLine_;

@@ -43,8 +43,9 @@ struct SourceLine {
     std::string_view text;  ///< Without the line end.
     int line = 1;           ///< Of the file.
     LineKind kind = LineKind::Code;
-    std::uint32_t span = 1;  ///< A directive with its continuation lines, which are the next entries.
-    int macro = -1;          ///< Define, PragmaDefine: index into `macros`.
+    std::uint32_t span = 1;    ///< A directive with its continuation lines, which are the next entries.
+    int macro = -1;            ///< Define, PragmaDefine: index into `macros`.
+    bool conditional = false;  ///< Include: stands in a condition that is no include guard.
 };
 
 struct MacroDefinition {
@@ -58,6 +59,7 @@ struct MacroDefinition {
     bool bearsDirectives = false;  ///< A line of the body is a preprocessor line: GLSL's own preprocessor has no such.
     bool declares = false;         ///< The body holds a part of a declaration: in, out, uniform, buffer, a brace alone.
     bool dead = false;             ///< In a branch that no text of version 450 takes.
+    bool conditional = false;      ///< In a condition that is no include guard: it may not hold.
     bool adoptsNextLine = false;   ///< `#define f(x)` and nothing behind it: the next line is the body.
     std::vector<std::string_view> parameters;
     std::vector<BodyLine> body;

@@ -165,8 +165,9 @@ std::string MacroProgram::body(std::size_t index, int arity) {
     }
     if (use == Use::Value && arity < 0 && chance(8)) return {};  // With a list, the next line would be the body.
     std::string text = use == Use::Statement ? "p = " + value(arity, 1, false) + ";" : value(arity, 1, false);
-    if (use == Use::Value && chance(10)) text = kNames[next(kNameCount)].text;
-    if (!chance(30)) return text;
+    if (use == Use::Value && arity == kNone && chance(15)) text = kNames[next(kNameCount)].text;
+    // What a branch of a body ends in is not called with brackets that follow the body.
+    if (!chance(30) || (kNames[index].either && arity == kNone)) return text;
     const char which = static_cast<char>((chance(70) ? 'A' : 'a') + static_cast<int>(next(3)));
     const std::string other =
         use == Use::Statement ? " q = " + value(arity, 1, false) + ";" : " + " + value(arity, 1, false);

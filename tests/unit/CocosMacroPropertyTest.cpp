@@ -4,6 +4,7 @@
 #include <glslang/Public/ShaderLang.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
@@ -38,8 +39,10 @@ std::string tokensOf(const std::string& text) {
     return all;
 }
 
-/// What glslang says of a macro's name without brackets at the end of a line in front of a preprocessor line.
-constexpr const char* kRefused = "preprocessor directive cannot be preceded by another token";
+/// What glslang says of a macro's name without brackets at the end of a line in front of a preprocessor line, and what
+/// the flattener says of programs that become too large.
+constexpr const char* kRefused[] = {"preprocessor directive cannot be preceded by another token",
+                                    "write more than it can hold", "expands without end", "is not closed within"};
 
 std::string headOf(unsigned variant) {
     std::string head;
@@ -129,7 +132,10 @@ std::string difference(const MacroProgram& program, const std::string* expected,
         if (compared != nullptr) ++*compared;
         const std::string found =
             problems.hasErrors() ? "error " + problems.all().front().message : preprocess(headOf(variant) + flat);
-        if (found == expected[variant] || found.find(kRefused) != std::string::npos) continue;
+        if (found == expected[variant]) continue;
+        if (std::any_of(std::begin(kRefused), std::end(kRefused),
+                        [&](const char* message) { return found.find(message) != std::string::npos; }))
+            continue;
         if (found.starts_with("error") || alone(headOf(variant) + flat) != expected[variant])
             return headOf(variant) + source + "\nflattened:\n" + flat + "\nC:    " + expected[variant] +
                    "\nours: " + found;
@@ -146,13 +152,17 @@ std::string differenceAlone(const MacroProgram& program) {
 
 /// Takes away what a failing program does not need to fail.
 std::string smallestDifference(MacroProgram program, std::string found) {
-    for (std::size_t item = program.itemCount(); item-- > 0;) {
-        if (item >= program.itemCount()) continue;
-        const MacroProgram less = program.without(item);
-        const std::string left = differenceAlone(less);
-        if (left.empty()) continue;
-        program = less;
-        found = left;
+    for (bool shrunk = true; shrunk;) {
+        shrunk = false;
+        for (std::size_t item = program.itemCount(); item-- > 0;) {
+            if (item >= program.itemCount()) continue;
+            const MacroProgram less = program.without(item);
+            const std::string left = differenceAlone(less);
+            if (left.empty()) continue;
+            program = less;
+            found = left;
+            shrunk = true;
+        }
     }
     return found;
 }
@@ -187,7 +197,7 @@ void checkPrograms(bool crossing) {
 
 TEST(CocosMacroProperty, EveryVariantIsThatOfTheSource) { checkPrograms(false); }
 
-TEST(CocosMacroProperty, DISABLED_ConditionsThatCrossCalls) { checkPrograms(true); }
+TEST(CocosMacroProperty, ConditionsThatCrossCalls) { checkPrograms(true); }
 
 }  // namespace
 }  // namespace crevice::cocos

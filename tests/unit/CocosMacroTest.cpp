@@ -199,7 +199,7 @@ TEST(CocosMacro, ManyOpenCallsAreNotEachLookedThrough) {
     bench.fragment(two + object + broken);
     EXPECT_THAT(bench.problem().message, HasSubstr("write more than it can hold"));
     bench.fragment(two + open);
-    EXPECT_EQ(bench.problem().message, "the call of macro 'A' is not closed");
+    EXPECT_EQ(bench.problem().message, "the call of macro 'A' is not closed within 64 KB");
     Problems problems;
     bench.flatten(problems);
     EXPECT_EQ(problems.all().size(), 1u);
