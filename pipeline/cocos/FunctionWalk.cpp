@@ -2,6 +2,7 @@
 #include "cocos/FunctionWalk.h"
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
 #include "cocos/SourceText.h"
@@ -46,6 +47,17 @@ bool isQualifier(std::string_view word) {
            word == "invariant";
 }
 
+/// Characters that neither end a line nor open or close anything: most of a text.
+constexpr std::array<bool, 256> kPlain = [] {
+    std::array<bool, 256> plain{};
+    plain.fill(true);
+    for (const char c : {' ', '\t', '\n', '\r', '#', '{', '}', '(', ')', ';'})
+        plain[static_cast<unsigned char>(c)] = false;
+    return plain;
+}();
+
+bool isPlain(char c) { return kPlain[static_cast<unsigned char>(c)]; }
+
 }  // namespace
 
 std::size_t lineEnd(std::string_view text, std::size_t at) {
@@ -86,6 +98,12 @@ bool FunctionWalk::run() {
     bool lineBegins = true;
     for (; at_ < text_.size(); ++at_) {
         const char c = text_[at_];
+        if (isPlain(c)) {
+            while (at_ + 1 < text_.size() && isPlain(text_[at_ + 1])) ++at_;
+            last_ = text_[at_];
+            ended_ = lineBegins = false;
+            continue;
+        }
         if (c == '\n') lineBegins = true;
         if (isBlank(c)) continue;
         if (c == '#' && lineBegins ? !takeDirective() : !take(c)) return false;

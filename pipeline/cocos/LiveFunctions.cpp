@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <unordered_set>
 
 #include "cocos/FunctionWalk.h"
@@ -75,7 +76,7 @@ private:
 
     void addNode(std::string_view name) {
         if (index_.try_emplace(name, nodes_.size()).second) nodes_.emplace_back();
-        firstLetters_[static_cast<unsigned char>(name.front()) & 127u] = true;
+        lengths_[static_cast<unsigned char>(name.front()) & 127u] |= 1ull << (name.size() & 63u);
     }
 
     /// The known names of a text; its preprocessor lines are left out: what macros stand for is known. In `code` a call
@@ -97,7 +98,8 @@ private:
             while (end < text.size() && isNamePart(text[end])) ++end;
             lineBegins = false;
             const std::string_view name = text.substr(at, end - at);
-            const auto it = firstLetters_[static_cast<unsigned char>(c) & 127u] ? index_.find(name) : index_.end();
+            const bool mayBeKnown = (lengths_[static_cast<unsigned char>(c) & 127u] >> (name.size() & 63u) & 1u) != 0;
+            const auto it = mayBeKnown ? index_.find(name) : index_.end();
             if (it != index_.end())
                 names.push_back(it->second);
             else if (code && isCalledMacro(name, text.substr(end)) && structs_.count(name) == 0)
@@ -180,7 +182,8 @@ private:
     std::vector<Node> nodes_;
     std::size_t functionEnd_ = 0;
     std::unordered_map<std::string_view, std::size_t> index_;
-    std::array<bool, 128> firstLetters_{};  ///< Of the known names: most words are passed over by one look.
+    /// Of the known names with that first letter: most words are passed over by one look.
+    std::array<std::uint64_t, 128> lengths_{};
     std::unordered_set<std::string_view> structs_;
     std::vector<std::size_t> outside_;
 };

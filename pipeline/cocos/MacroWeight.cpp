@@ -2,6 +2,7 @@
 #include "cocos/MacroWeight.h"
 
 #include <algorithm>
+#include <array>
 
 #include <fmt/format.h>
 
@@ -10,7 +11,13 @@ namespace {
 
 constexpr double kHuge = 1e30;
 
-bool isOperator(char c) { return std::string_view("+-*/%&|^<>=!?~").find(c) != std::string_view::npos; }
+constexpr std::array<bool, 256> kOperators = [] {
+    std::array<bool, 256> operators{};
+    for (const char c : std::string_view("+-*/%&|^<>=!?~")) operators[static_cast<unsigned char>(c)] = true;
+    return operators;
+}();
+
+bool isOperator(char c) { return kOperators[static_cast<unsigned char>(c)]; }
 
 constexpr double kHeavy = 100;  ///< Words: lighter macros cannot add up before the text itself is too large.
 constexpr int kMaxDepth = 100;  ///< Nesting of calls, and of macros in macros.
@@ -172,6 +179,23 @@ int MacroWeights::firstTooHeavy(std::string_view text, std::string_view& macro) 
     bool lineStart = true;
     while (scanner.at < text.size()) {
         const char c = text[scanner.at];
+        if (isNamePart(c)) {
+            std::size_t end = scanner.at + 1;
+            while (end < text.size() && isNamePart(text[end])) ++end;
+            lineStart = false;
+            const std::string_view name = text.substr(scanner.at, end - scanner.at);
+            if (!letters[static_cast<unsigned char>(c) & 127u] || !heavy.contains(name)) {
+                scanner.at = end;
+                continue;
+            }
+            const std::size_t begin = scanner.at;
+            const double words = scanner.word().constant;
+            total += words;
+            statement += words;
+            if (total > kMaxWords) macro = name;
+            if (total > kMaxWords || statement > kMaxStatement) return lineOf(begin);
+            continue;
+        }
         if (lineStart && c == '#' && readDirective(text.substr(scanner.at, 64)).kind == LineKind::Define) {
             // A definition, continued or not, is not expanded where it stands.
             std::size_t end = text.find('\n', scanner.at);
@@ -179,33 +203,15 @@ int MacroWeights::firstTooHeavy(std::string_view text, std::string_view& macro) 
             scanner.at = std::min(end, text.size());
             continue;
         }
-        if (!isNamePart(c)) {
-            if (c == ';' || c == '{' || c == '}')
-                statement = 0;
-            else if (c == ',')
-                statement += 1;
-            else if (isOperator(c))
-                statement += 2;
-            if (statement > kMaxStatement) return lineOf(scanner.at);
-            lineStart = c == '\n' || (lineStart && (c == ' ' || c == '\t'));
-            ++scanner.at;
-            continue;
-        }
-        lineStart = false;
-        std::size_t end = scanner.at + 1;
-        while (end < text.size() && isNamePart(text[end])) ++end;
-        const std::string_view name = text.substr(scanner.at, end - scanner.at);
-        const bool candidate = letters[static_cast<unsigned char>(c) & 127u] && heavy.contains(name);
-        if (!candidate) {
-            scanner.at = end;
-            continue;
-        }
-        const std::size_t begin = scanner.at;
-        const double words = scanner.word().constant;
-        total += words;
-        statement += words;
-        if (total > kMaxWords) macro = name;
-        if (total > kMaxWords || statement > kMaxStatement) return lineOf(begin);
+        if (c == ';' || c == '{' || c == '}')
+            statement = 0;
+        else if (c == ',')
+            statement += 1;
+        else if (isOperator(c))
+            statement += 2;
+        if (statement > kMaxStatement) return lineOf(scanner.at);
+        lineStart = c == '\n' || (lineStart && (c == ' ' || c == '\t'));
+        ++scanner.at;
     }
     return 0;
 }

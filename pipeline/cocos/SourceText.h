@@ -2,6 +2,7 @@
 // used by every stage that includes it.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
@@ -111,8 +112,14 @@ constexpr char kFinal = '\1';
 std::string_view trimBlank(std::string_view text);
 /// The name at the front of a text, or nothing.
 std::string_view leadingName(std::string_view text);
-inline bool isNameStart(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; }
-inline bool isNamePart(char c) { return isNameStart(c) || (c >= '0' && c <= '9'); }
+constexpr bool isNameStart(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; }
+inline constexpr std::array<bool, 256> kNameParts = [] {
+    std::array<bool, 256> parts{};
+    for (std::size_t c = 0; c < 128; ++c) parts[c] = isNameStart(static_cast<char>(c)) || (c >= '0' && c <= '9');
+    return parts;
+}();
+/// Asked of nearly every character of every text, hence a table.
+inline bool isNamePart(char c) { return kNameParts[static_cast<unsigned char>(c)]; }
 
 /// Behind a macro's name, does the tail make `#pragma define` a description (Cocos up to 3.4) instead of a macro?
 bool isMetaTail(std::string_view tail);

@@ -4,12 +4,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <deque>
 #include <set>
 
 #include "core/Text.h"
 #include "effect/EffectFrontEnd.h"
 #include "effect/Includes.h"
+#include "effect/RecentStages.h"
 #include "effect/ShaderCompiler.h"
 #include "effect/SpirvCache.h"
 #include "effect/SpirvCheck.h"
@@ -22,7 +22,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t kMaxEffectBytes = 16u << 20;
-constexpr std::size_t kRecentStages = 64;
 constexpr std::size_t kMostTold = 10'000;  ///< Messages that are remembered.
 
 }  // namespace
@@ -32,12 +31,7 @@ struct EffectLibrary::State {
     Log log;
     SpirvCache disk;
     std::shared_ptr<ShaderCompiler> compiler;
-    struct RecentStage {
-        std::string key;  ///< Hash of its text.
-        StageCode code;
-        bool checked = false;
-    };
-    std::deque<RecentStage> recent;  ///< Numbered stages, newest first.
+    RecentStages recent;
     std::vector<std::unique_ptr<EffectFrontEnd>> frontEnds;
     std::map<std::string, std::unique_ptr<EffectAsset>> assets;  ///< By path.
     std::map<const EffectAsset*, EffectFrontEnd*> readers;       ///< Of the assets that are not in our own dialect.
@@ -69,8 +63,9 @@ struct EffectLibrary::State {
     const EffectVariant& make(const VariantRequest& request, const BindingMap& bindings);
     CompiledPass compiledFor(const std::string& key, const std::vector<StageSource>& sources,
                              const BindingMap& bindings, bool check);
-    std::vector<StageCode> codeOf(const std::vector<StageSource>& sources, const BindingMap& bindings, bool check,
-                                  Problems& problems);
+    using Stages = std::vector<RecentStages::Stage>;
+    Stages compileStages(const std::vector<StageSource>& sources, const BindingMap& bindings, bool check,
+                         Problems& problems);
     std::string askKey(const EffectAsset& effect, const VariantRequest& request, const BindingMap& bindings) const;
     const EffectVariant& keep(const EffectAsset& effect, const VariantRequest& request, const std::string& place,
                               CompiledPass compiled);
@@ -197,32 +192,24 @@ std::vector<StageSource> EffectLibrary::State::stagesOf(const EffectAsset& asset
     return sources;
 }
 
-/// Numbered stages one by one, each text once: passes share their programs.
-std::vector<StageCode> EffectLibrary::State::codeOf(const std::vector<StageSource>& sources, const BindingMap& bindings,
-                                                    bool check, Problems& problems) {
+/// Numbered stages one by one, each text once.
+EffectLibrary::State::Stages EffectLibrary::State::compileStages(const std::vector<StageSource>& sources,
+                                                                 const BindingMap& bindings, bool check,
+                                                                 Problems& problems) {
     const bool numbered = std::all_of(sources.begin(), sources.end(), [](const auto& s) { return s.numbered; });
-    std::vector<StageCode> code;
-    if (!numbered) {
-        code = compiler->compile(sources, bindings, problems);
-        for (std::size_t i = 0; check && i < code.size(); ++i) checkSpirv(code[i], sources[i], problems);
-        return code;
+    Stages stages;
+    if (numbered) {
+        for (const StageSource& source : sources)
+            if (auto stage = recent.get(source, check, *compiler, problems)) stages.push_back(std::move(*stage));
+        return stages;
     }
-    for (const StageSource& source : sources) {
-        const std::string key =
-            contentHash(fmt::format("{}\n{}{}", static_cast<int>(source.stage), source.head, source.text));
-        auto known = std::find_if(recent.begin(), recent.end(), [&](const RecentStage& s) { return s.key == key; });
-        if (known == recent.end()) {
-            auto fresh = compiler->compile({&source, 1}, bindings, problems);
-            if (fresh.empty()) continue;
-            recent.push_front({key, std::move(fresh.front())});
-            known = recent.begin();
-            if (recent.size() > kRecentStages) recent.pop_back();
-        }
-        if (check && !known->checked) checkSpirv(known->code, source, problems);
-        known->checked = known->checked || (check && !problems.hasErrors());
-        code.push_back(known->code);
+    std::vector<StageCode> code = compiler->compile(sources, bindings, problems);
+    for (std::size_t i = 0; i < code.size(); ++i) {
+        if (check) checkSpirv(code[i], sources[i], problems);
+        auto facts = std::make_shared<StageFacts>(reflectStage(code[i], sources[i]));
+        stages.push_back({std::move(code[i]), std::move(facts)});
     }
-    return code;
+    return stages;
 }
 
 CompiledPass EffectLibrary::State::compiledFor(const std::string& key, const std::vector<StageSource>& sources,
@@ -233,12 +220,17 @@ CompiledPass EffectLibrary::State::compiledFor(const std::string& key, const std
         return std::move(*kept);
     }
     Problems problems;
-    CompiledPass compiled;
-    compiled.code = codeOf(sources, bindings, check, problems);
+    Stages stages = compileStages(sources, bindings, check, problems);
     problems.throwIfErrors();
+    CompiledPass compiled;
     compiled.checked = check;
+    std::vector<const StageFacts*> facts;
+    for (auto& [code, found] : stages) {
+        compiled.code.push_back(std::move(code));
+        facts.push_back(found.get());
+    }
     Problems remarks;
-    compiled.info = reflectStages(compiled.code, sources, remarks);
+    compiled.info = joinStages(facts, remarks);
     remarks.throwIfErrors();
     tell(remarks);
     ++counters.compiled;

@@ -74,8 +74,8 @@ std::vector<GlslToken> tokenizeGlsl(std::string_view text) {
         if (c == '\n') {
             // A backslash as the last character of a line joins the next one to it.
             std::size_t last = i;
-            while (last > lineStart && (text[last - 1] == ' ' || text[last - 1] == '\t')) --last;
-            if (last == lineStart || text[last - 1] != '\\') directive = false;
+            while (directive && last > lineStart && (text[last - 1] == ' ' || text[last - 1] == '\t')) --last;
+            directive = directive && last != lineStart && text[last - 1] == '\\';
             ++line;
             lineStart = ++i;
             blankSoFar = true;

@@ -1,15 +1,12 @@
-// What SPIR-V declares and statically uses, by SPIRV-Cross, as Crevice's plain ShaderInfo.
+// What a stage's SPIR-V declares and statically uses, by SPIRV-Cross, as Crevice's plain facts.
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
-#include <cctype>
-#include <fstream>
 #include <set>
 #include <spirv_cross/spirv_cross.hpp>
 
 #include "effect/Declarations.h"
-#include "effect/ShaderCompiler.h"
+#include "effect/StageFacts.h"
 
 namespace crevice {
 namespace {
@@ -83,24 +80,10 @@ ImageUse scanImages(const std::vector<std::uint32_t>& words) {
     return use;
 }
 
-/// What crosses between stages: an output of the vertex stage, or an input of the fragment stage.
-struct Varying {
-    std::string name, type;
-    bool active = false;
-    SourceLoc where;
-};
-
 class StageReflection {
 public:
-    std::vector<Varying> varyings;
-
-    StageReflection(const StageCode& code, const StageSource& source, ShaderInfo& info, Problems& problems)
-        : code_(code),
-          numbered_(source.numbered),
-          names_(source.flat),
-          compiler_(code.words),
-          info_(info),
-          problems_(problems) {}
+    StageReflection(const StageCode& code, const StageSource& source, StageFacts& facts)
+        : code_(code), names_(source.flat), compiler_(code.words), facts_(facts), info_(facts.info) {}
 
     void run() {
         active_ = compiler_.get_active_interface_variables();
@@ -140,9 +123,6 @@ private:
         resource.stages |= code_.stage;
         const bool isActive = active_.contains(r.id);
         if (resource.where.line == 0) resource.where = names_.declared(name);
-        if (resource.count == 0)
-            problems_.error(resource.where, fmt::format("'{}' is an array without a size", name),
-                            "give it a constant size");
         if (isActive && resource.firstUse.line == 0) {
             std::vector<std::string> members;
             const sc::SPIRType& base = compiler_.get_type(r.base_type_id);
@@ -171,14 +151,18 @@ private:
             if (isPlainArray(member, kind))
                 out.arrayCount = member.array.back();
             else
-                problems_.error(
-                    block.where,
-                    fmt::format("member '{}' of '{}' is an array that Crevice cannot fill", out.name, block.name),
-                    "give it one dimension, with a size that is no specialization constant");
+                facts_.mistakes.push_back(
+                    {static_cast<std::size_t>(&block - info_.resources.data()),
+                     {Severity::Error,
+                      block.where,
+                      fmt::format("member '{}' of '{}' is an array that Crevice cannot fill", out.name, block.name),
+                      "give it one dimension, with a size that is no specialization constant",
+                      {}}});
         }
         if (kind == ResourceKind::StorageBuffer) {
             const sc::Bitset flags = compiler_.get_buffer_block_flags(r.id);
-            restrictAccess(block, flags.get(spv::DecorationNonWritable), flags.get(spv::DecorationNonReadable));
+            block.readOnly = flags.get(spv::DecorationNonWritable);
+            block.writeOnly = flags.get(spv::DecorationNonReadable);
         } else {
             block.readOnly = true;
         }
@@ -202,15 +186,8 @@ private:
     void addImage(const sc::Resource& r) {
         ShaderResource& image = merge(compiler_.get_name(r.id), ResourceKind::StorageImage, r);
         const bool read = images_.read.contains(r.id), written = images_.written.contains(r.id);
-        restrictAccess(image, compiler_.has_decoration(r.id, spv::DecorationNonWritable) || (read && !written),
-                       compiler_.has_decoration(r.id, spv::DecorationNonReadable) || (written && !read));
-    }
-
-    /// Two stages that use one resource: it is read-only when both only read it.
-    void restrictAccess(ShaderResource& resource, bool readOnly, bool writeOnly) const {
-        const bool first = resource.stages == code_.stage;
-        resource.readOnly = readOnly && (first || resource.readOnly);
-        resource.writeOnly = writeOnly && (first || resource.writeOnly);
+        image.readOnly = compiler_.has_decoration(r.id, spv::DecorationNonWritable) || (read && !written);
+        image.writeOnly = compiler_.has_decoration(r.id, spv::DecorationNonReadable) || (written && !read);
     }
 
     void refuse(const sc::Resource& r, const char* what, const char* help) {
@@ -221,8 +198,8 @@ private:
                         fmt::format("'{}' is {}, which Crevice does not bind", name, what),
                         help,
                         {}};
-        if (!numbered_)
-            problems_.error(problem.where, problem.message, problem.help);
+        if (!facts_.numbered)
+            facts_.mistakes.push_back({std::nullopt, std::move(problem)});
         else if (active_.contains(r.id))
             info_.refusals.push_back(std::move(problem));
     }
@@ -239,106 +216,30 @@ private:
     void addVaryings(const Resources& resources) {
         for (const auto& r : resources) {
             const sc::SPIRType& type = compiler_.get_type(r.type_id);
-            Varying varying{compiler_.get_name(r.id), typeName(compiler_.get_type(r.base_type_id)),
-                            active_.contains(r.id), names_.declared(compiler_.get_name(r.id))};
+            StageVarying varying{compiler_.get_name(r.id), typeName(compiler_.get_type(r.base_type_id)),
+                                 active_.contains(r.id), names_.declared(compiler_.get_name(r.id))};
             for (const std::uint32_t size : type.array) varying.type += fmt::format("[{}]", size);
-            varyings.push_back(std::move(varying));
+            facts_.varyings.push_back(std::move(varying));
         }
     }
 
     const StageCode& code_;
-    bool numbered_;
     Declarations names_;
     sc::Compiler compiler_;
-    ShaderInfo& info_;
-    Problems& problems_;
+    StageFacts& facts_;
+    ShaderInfo& info_;  ///< Of the facts.
     std::unordered_set<sc::VariableID> active_;
     ImageUse images_;
 };
 
-/// The column of a name in the author's line: a layout() that nobody wrote has moved it in the text that was compiled.
-SourceLoc inAuthorsLine(SourceLoc where, const std::string& name) {
-    std::ifstream file(where.file, std::ios::binary);
-    std::string line;
-    for (int i = 0; i < where.line && std::getline(file, line);) ++i;
-    const auto isPart = [&](std::size_t i) {
-        return i < line.size() && (std::isalnum(static_cast<unsigned char>(line[i])) != 0 || line[i] == '_');
-    };
-    for (std::size_t at = line.find(name); at != std::string::npos; at = line.find(name, at + 1)) {
-        if ((at > 0 && isPart(at - 1)) || isPart(at + name.size())) continue;
-        where.column = static_cast<int>(at) + 1;
-        break;
-    }
-    return where;
-}
-
-/// A scalar or vector, or an array of such: "vec4[2]" is { "vec", 4, "[2]" }, "int" is { "ivec", 1, "" }.
-struct VaryingShape {
-    std::string_view scalar;
-    int size = 0;  ///< 0 = another type.
-    std::string_view array;
-};
-
-VaryingShape shapeOf(std::string_view type) {
-    static constexpr std::array<std::array<std::string_view, 2>, 4> kScalars{
-        {{"float", "vec"}, {"int", "ivec"}, {"uint", "uvec"}, {"double", "dvec"}}};
-    const std::size_t end = std::min(type.find('['), type.size());
-    const std::string_view element = type.substr(0, end);
-    for (const auto& [scalar, vector] : kScalars) {
-        if (element == scalar) return {vector, 1, type.substr(end)};
-        if (element.size() == vector.size() + 1 && element.starts_with(vector))
-            return {vector, element.back() - '0', type.substr(end)};
-    }
-    return {};
-}
-
-/// Components that nobody reads do no harm (Vulkan's maintenance4 says so of vectors).
-bool isWider(std::string_view output, std::string_view input) {
-    const VaryingShape from = shapeOf(output), to = shapeOf(input);
-    return to.size > 0 && from.scalar == to.scalar && from.array == to.array && from.size > to.size;
-}
-
-/// Texts that are compiled one by one meet here for the first time.
-void checkVaryings(const std::vector<Varying>& written, const std::vector<Varying>& read, Problems& problems) {
-    for (const Varying& input : read) {
-        const auto output =
-            std::find_if(written.begin(), written.end(), [&](const Varying& v) { return v.name == input.name; });
-        if (!input.active || input.name.empty() || output == written.end() || output->type == input.type) continue;
-        const SourceLoc where = inAuthorsLine(input.where, input.name);
-        const std::string message = fmt::format("varying '{}' is a {} here, but a {} in the vertex program", input.name,
-                                                input.type, output->type);
-        if (isWider(output->type, input.type))
-            problems.note(where, message, "what it lacks is not read: give both the same type to be sure");
-        else
-            problems.error(where, message, "give both the same type",
-                           {{inAuthorsLine(output->where, output->name), "the vertex program's"}});
-    }
-}
-
 }  // namespace
 
-const ShaderResource* ShaderInfo::find(std::string_view name) const {
-    for (const ShaderResource& resource : resources)
-        if (resource.name == name) return &resource;
-    return nullptr;
-}
-
-ShaderInfo reflectStages(const std::vector<StageCode>& code, const std::vector<StageSource>& sources,
-                         Problems& problems) {
-    ShaderInfo info;
-    std::vector<Varying> written, read;
-    for (const StageCode& stage : code) {
-        for (const StageSource& source : sources) {
-            if (source.stage != stage.stage) continue;
-            StageReflection reflection(stage, source, info, problems);
-            reflection.run();
-            if (source.numbered) (stage.stage == kVertexBit ? written : read) = std::move(reflection.varyings);
-        }
-    }
-    checkVaryings(written, read, problems);
-    std::sort(info.resources.begin(), info.resources.end(),
-              [](const auto& a, const auto& b) { return a.slot < b.slot; });
-    return info;
+StageFacts reflectStage(const StageCode& code, const StageSource& source) {
+    StageFacts facts;
+    facts.stage = code.stage;
+    facts.numbered = source.numbered;
+    StageReflection(code, source, facts).run();
+    return facts;
 }
 
 }  // namespace crevice

@@ -43,9 +43,4 @@ private:
     std::unique_ptr<Process> process_;
 };
 
-/// What the code declares and uses; places are looked up in the sources. Reports kinds of resources Crevice has no use
-/// for; of numbered sources those that are used become `refusals`.
-ShaderInfo reflectStages(const std::vector<StageCode>& code, const std::vector<StageSource>& sources,
-                         Problems& problems);
-
 }  // namespace crevice
