@@ -73,7 +73,8 @@ public:
     int run() {
         if (cocos_ == nullptr) checkDefines();
         for (const std::string& effect : effects_) {
-            progress_.show(fmt::format("{} of {}: {}", ++begun_, effects_.size(), effect));
+            ++begun_;
+            showProgress(effect);
             compileEffect(effect);
         }
         progress_.clear();
@@ -82,6 +83,10 @@ public:
     }
 
 private:
+    /// Results may go to the same terminal: whoever prints one clears this first.
+    void showProgress(const std::string& effect) {
+        progress_.show(fmt::format("{} of {}: {}, {} done", begun_, effects_.size(), effect, done_));
+    }
     void compileEffect(const std::string& name);
     void compilePass(const std::string& name, const EffectPass& pass, std::size_t technique, std::size_t index);
     void compileVariant(const VariantRequest& request, const EffectPass& pass);
@@ -101,7 +106,8 @@ private:
     EffectReport report_;
     BindingMap bindings_;
     Defines given_;
-    std::size_t begun_ = 0;
+    std::size_t begun_ = 0;  ///< Effects.
+    std::size_t done_ = 0;   ///< Variants of passes.
 };
 
 /// An effect whose header cannot be read is bad input; one whose pass does not compile is a "no". Of a folder of Cocos'
@@ -112,6 +118,7 @@ void CompileRun::compileEffect(const std::string& name) {
         effect = &library_.asset(name);
     } catch (const Error& error) {
         if (cocos_ == nullptr || effects_.size() == 1) throw;
+        progress_.clear();
         report_.unreadable(name, formatError(error));
         return;
     }
@@ -140,6 +147,7 @@ void CompileRun::compilePass(const std::string& name, const EffectPass& pass, st
             const Defines fixed = definesFor(infos);
             variants = options_.allVariants ? variantsOf(request, infos, fixed) : std::vector<Defines>{fixed};
         } catch (const Error& error) {
+            progress_.clear();
             report_.failure(request, pass, error);
             return;
         }
@@ -165,18 +173,24 @@ std::vector<Defines> CompileRun::variantsOf(const VariantRequest& request, const
 void CompileRun::compileVariant(const VariantRequest& request, const EffectPass& pass) {
     try {
         if (options_.text) {
+            progress_.clear();
             for (const ShaderStageBits stage : {kVertexBit, kFragmentBit, kComputeBit})
                 print(library_.text(request, stage));
         }
-        report_.success(request, pass, library_.get(request, bindings_));
+        const EffectVariant& variant = library_.get(request, bindings_);
+        progress_.clear();
+        report_.success(request, pass, variant);
     } catch (const Error& error) {
         std::vector<MissingName> missing = missingNames(error);
         if (cocos_ != nullptr && !missing.empty()) {
             Problems said;  // by the attempt to compile
             explainMissing(missing, cocos_->flatten(library_.asset(request.effect), pass, said));
         }
+        progress_.clear();
         report_.failure(request, pass, error, missing);
     }
+    ++done_;
+    showProgress(request.effect);
 }
 
 Defines CompileRun::definesFor(const std::vector<DefineInfo>& infos) const {
