@@ -19,14 +19,6 @@ constexpr std::array<std::string_view, 12> kOtherTypes = {"void", "bool",  "int"
 
 bool isBlank(char c) { return c == ' ' || c == '\t' || c == '\n'; }
 
-/// The name in front of a place, over blanks; empty when something else stands there.
-std::string_view nameBefore(std::string_view text, std::size_t at) {
-    while (at > 0 && isBlank(text[at - 1])) --at;
-    std::size_t begin = at;
-    while (begin > 0 && isNamePart(text[begin - 1])) --begin;
-    return text.substr(begin, at - begin);
-}
-
 /// What stands in front of each "NAME(", and whether the name occurs at all.
 struct Occurrences {
     std::vector<std::string_view> types;

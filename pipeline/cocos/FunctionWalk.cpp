@@ -10,14 +10,6 @@
 namespace crevice::cocos {
 namespace {
 
-/// The name that ends in front of `at`, over blanks.
-std::string_view nameBefore(std::string_view text, std::size_t at) {
-    while (at > 0 && isBlank(text[at - 1])) --at;
-    std::size_t begin = at;
-    while (begin > 0 && isNamePart(text[begin - 1])) --begin;
-    return text.substr(begin, at - begin);
-}
-
 /// True when the text is names and blanks alone, and each name is accepted.
 template <class Accepts>
 bool allWords(std::string_view text, Accepts accepts) {
@@ -81,6 +73,56 @@ void addDefinesOf(std::string_view text, MacroBodies& macros) {
     }
 }
 
+std::unordered_set<std::string_view> findFunctionMakers(const MacroBodies& defines) {
+    const auto makes = [](std::string_view body) {
+        std::size_t end = body.find_last_not_of(" \t\r\n\\");
+        if (!body.starts_with('(') || end == std::string_view::npos || body[end] != '}') return false;
+        int depth = 0;
+        for (++end; end-- > 0;) {
+            depth += int(body[end] == '}') - int(body[end] == '{');
+            if (depth == 0) break;
+        }
+        const std::size_t before = end == 0 ? end : body.find_last_not_of(" \t\r\n\\", end - 1);
+        return depth == 0 && before != std::string_view::npos && body[before] == ')' && before > body.find(')');
+    };
+    std::unordered_set<std::string_view> makers;
+    for (const auto& [name, bodies] : defines)
+        if (std::all_of(bodies.begin(), bodies.end(), makes)) makers.insert(name);
+    return makers;
+}
+
+std::string withoutNever(std::string_view text) {
+    struct Branch {
+        bool decided = false, never = false;
+    };
+    std::vector<Branch> open;
+    std::string out(text);
+    std::size_t nevers = 0;
+    for (std::size_t at = 0, end; at < text.size(); at = end + 1) {
+        end = lineEnd(text, at);
+        const Directive line = readDirective(text.substr(at, end - at));
+        if (line.kind == LineKind::If || line.kind == LineKind::Ifdef || line.kind == LineKind::Ifndef) {
+            open.emplace_back();
+        } else if (!isConditional(line.kind) || open.empty()) {
+            if (line.kind == LineKind::Code) end = std::min(text.find('\n', at), text.size());
+            for (std::size_t i = at; nevers > 0 && i < end; ++i)
+                if (out[i] != '\n') out[i] = ' ';
+            continue;
+        }
+        Branch& branch = open.back();
+        nevers -= std::size_t(branch.never);
+        if (line.kind == LineKind::Endif) {
+            open.pop_back();
+            continue;
+        }
+        const bool tested = line.kind == LineKind::If || line.kind == LineKind::Elif;
+        branch.never = branch.decided || (tested && line.rest == "0");
+        branch.decided = branch.decided || (tested && line.rest == "1");
+        nevers += std::size_t(branch.never);
+    }
+    return out;
+}
+
 bool keepBrackets(const MacroBodies& macros) {
     return std::all_of(macros.begin(), macros.end(), [](const auto& macro) {
         int braces = 0, parens = 0;
@@ -116,10 +158,12 @@ bool FunctionWalk::take(char c) {
     const bool nothing = std::exchange(ended_, false);
     if (c == '{') {
         if (depth_.paren > 0 && depth_.brace == 0) return false;
+        if (depth_.brace == 0) isBody_ = last_ == ')' && isHead();
         if (depth_.brace++ == 0 && last_ == ')') begin();
     } else if (c == '}') {
         if (--depth_.brace < 0) return false;
         if (depth_.brace == 0 && isOpen_) end(at_ + 1);
+        if (depth_.brace == 0 && isBody_) ended_ = true;
         if (depth_.brace == 0) finishStatement();
     } else if (c == '(' && depth_.brace == 0) {
         if (depth_.paren++ == 0) {
@@ -129,7 +173,7 @@ bool FunctionWalk::take(char c) {
     } else if (c == ')' && depth_.brace == 0) {
         if (--depth_.paren < 0) return false;
     } else if (c == ';' && depth_ == Depth{}) {
-        if (nothing) emptyStatements.push_back(at_);
+        if (nothing || (last_ == ')' && makers_.contains(nameBefore(text_, paren_)))) emptyStatements.push_back(at_);
         ended_ = true;
         finishStatement();
     }
@@ -140,6 +184,16 @@ bool FunctionWalk::take(char c) {
 void FunctionWalk::finishStatement() {
     statementBegin_ = at_ + 1;
     if (branches_.size() < unfinishedIn_ || unfinishedIn_ == 0) unfinished_ = false;
+}
+
+/// True for the list at `paren_` when a name that is no macro and a type stand in front of it, in whatever branch.
+bool FunctionWalk::isHead() const {
+    const std::string_view name = nameBefore(text_, paren_);
+    if (name.empty() || macros_.contains(name)) return false;
+    const std::string_view type = nameBefore(text_, offsetOf(name));
+    if (type.empty() || isStorage(type)) return false;
+    const std::size_t line = text_.rfind('\n', offsetOf(type)) + 1;  // npos + 1 is 0.
+    return readDirective(text_.substr(line, offsetOf(name) - line)).kind == LineKind::Code;
 }
 
 /// A body begins whose list did at `paren_`. Of what is not understood nothing is said.

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <array>
+#include <string>
 #include <string_view>
 #include <unordered_map>
+#include <unordered_set>
 #include <vector>
 
 #include "cocos/LiveFunctions.h"
@@ -18,6 +20,12 @@ std::size_t lineEnd(std::string_view text, std::size_t at);
 /// Adds what stands behind the name in each #define of the text, parameters included.
 void addDefinesOf(std::string_view text, MacroBodies& macros);
 
+/// Those of the #defines whose every body ends in a function's: a ';' behind their call ends nothing.
+std::unordered_set<std::string_view> findFunctionMakers(const MacroBodies& defines);
+
+/// The text with blanks for what stands behind `#if 0`, and behind `#if 1` in the other branches.
+std::string withoutNever(std::string_view text);
+
 /// True when every macro closes as many brackets as it opens: the brackets of the text are those of the program.
 bool keepBrackets(const MacroBodies& macros);
 
@@ -25,7 +33,8 @@ bool keepBrackets(const MacroBodies& macros);
 /// parentheses and then a body, outside of all braces. Whatever else has a body is passed over.
 class FunctionWalk {
 public:
-    FunctionWalk(std::string_view text, const MacroBodies& macros) : text_(text), macros_(macros) {}
+    FunctionWalk(std::string_view text, const MacroBodies& macros, const std::unordered_set<std::string_view>& makers)
+        : text_(text), macros_(macros), makers_(makers) {}
 
     /// False when braces and conditions do not come out even. Where they cross in a function, it counts as called.
     bool run();
@@ -44,6 +53,7 @@ private:
     };
 
     bool take(char c);
+    bool isHead() const;
     void begin();
     void end(std::size_t at);
     bool takeDirective();
@@ -54,6 +64,7 @@ private:
 
     std::string_view text_;
     const MacroBodies& macros_;
+    const std::unordered_set<std::string_view>& makers_;
     std::size_t at_ = 0, paren_ = 0;
     std::size_t directiveEnd_ = 0;    ///< Of the last preprocessor line outside of braces and parentheses.
     std::size_t statementBegin_ = 0;  ///< Behind what ended the last statement outside of braces.
@@ -63,6 +74,7 @@ private:
     std::size_t unfinishedIn_ = 0;  ///< How many conditions must be open for `unfinished_` to outlast a statement.
     char last_ = '\0';
     bool isOpen_ = false;
+    bool isBody_ = false;      ///< The braces are a function's, be it understood or not.
     bool ended_ = false;       ///< What stood before was a function's body or a statement.
     bool unfinished_ = false;  ///< A preprocessor line stood in the middle of the statement.
     bool definesInList_ = false;

@@ -17,8 +17,9 @@ constexpr std::size_t kAnything = 0;  ///< The node of what may lead to any func
 /// Functions and macros by name, and which names stand in each.
 class CallGraph {
 public:
-    CallGraph(std::string_view text, const std::vector<FunctionRange>& functions, const MacroBodies& macros,
-              const LiveHints& hints)
+    /// `compiled` is the text without what is never compiled; what that names is alive too.
+    CallGraph(std::string_view text, std::string_view compiled, const std::vector<FunctionRange>& functions,
+              const MacroBodies& macros, const LiveHints& hints)
         : nodes_(1) {
         nodes_[kAnything].pastes = true;
         for (const FunctionRange& function : functions) addNode(function.name);
@@ -35,13 +36,15 @@ public:
         addStructs(text);
         std::size_t at = 0;
         for (const FunctionRange& function : functions) {
-            readOutside(text.substr(at, function.begin - at));
+            readOutside(compiled.substr(at, function.begin - at));
+            readNever(text.substr(at, function.begin - at), compiled.substr(at));
             collectNames(text.substr(function.begin, function.end - function.begin),
                          nodes_[index_[function.name]].names, true);
             if (function.stays) outside_.push_back(index_[function.name]);
             at = function.end;
         }
-        readOutside(text.substr(at));
+        readOutside(compiled.substr(at));
+        readNever(text.substr(at), compiled.substr(at));
     }
 
     bool isFunction(std::string_view name) const {
@@ -143,6 +146,14 @@ private:
         readStatement(text.substr(begin));
     }
 
+    void readNever(std::string_view text, std::string_view compiled) {
+        for (std::size_t at = 0, end; at < text.size(); at = end + 1) {
+            end = std::min(text.find('\n', at), text.size());
+            const std::string_view line = text.substr(at, end - at);
+            if (line != compiled.substr(at, line.size())) collectNames(line, outside_, false, true);
+        }
+    }
+
     void readStatement(std::string_view statement) {
         std::vector<std::size_t> names;
         const std::size_t declared = declaredFunction(statement);
@@ -211,9 +222,9 @@ void countLines(std::string_view text, std::vector<FunctionRange>& functions) {
 }
 
 /// Takes those that are alive out of `functions`; all where nothing can be told.
-void keepDead(std::string_view text, std::string_view entry, const MacroBodies& known, const LiveHints& hints,
-              std::vector<FunctionRange>& functions) {
-    CallGraph graph(text, functions, known, hints);
+void keepDead(std::string_view text, std::string_view compiled, std::string_view entry, const MacroBodies& known,
+              const LiveHints& hints, std::vector<FunctionRange>& functions) {
+    CallGraph graph(text, compiled, functions, known, hints);
     if (functions.size() < 2 || !graph.isFunction(entry)) return functions.clear();
     std::vector<std::string_view> roots{entry};
     if (graph.isFunction("main")) roots.emplace_back("main");
@@ -234,26 +245,31 @@ void keepDead(std::string_view text, std::string_view entry, const MacroBodies& 
 
 std::vector<FunctionRange> findDeadFunctions(std::string_view text, std::string_view entry, const MacroBodies& macros,
                                              const LiveHints& hints) {
+    const std::string compiled = withoutNever(text);
     MacroBodies known;
-    addDefinesOf(text, known);
+    addDefinesOf(compiled, known);
     if (!keepBrackets(known)) return {};
+    const auto makers = findFunctionMakers(known);
     for (const auto& [name, bodies] : macros) {
         if (!known.contains(name) && !keepBrackets({{name, bodies}})) return {};
         auto& all = known[name];
         all.insert(all.end(), bodies.begin(), bodies.end());
     }
     for (const std::string_view name : hints.open) known[name];
-    FunctionWalk walk(text, known);
+    FunctionWalk walk(compiled, known, makers);
     if (!walk.run()) return {};
     countLines(text, walk.functions);
     std::vector<FunctionRange> found;
     for (const std::size_t at : walk.emptyStatements) found.push_back({{}, at, at + 1});
     countLines(text, found);
     const auto middle = static_cast<std::ptrdiff_t>(found.size());
-    keepDead(text, entry, known, hints, walk.functions);
+    keepDead(text, compiled, entry, known, hints, walk.functions);
     found.insert(found.end(), walk.functions.begin(), walk.functions.end());
     std::inplace_merge(found.begin(), found.begin() + middle, found.end(),
                        [](const FunctionRange& a, const FunctionRange& b) { return a.begin < b.begin; });
+    for (FunctionRange& function : found)
+        if (!function.name.empty())
+            function.name = text.substr(std::size_t(function.name.data() - compiled.data()), function.name.size());
     return found;
 }
 

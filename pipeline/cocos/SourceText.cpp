@@ -295,6 +295,13 @@ std::string_view leadingName(std::string_view text) {
     return text.substr(0, end);
 }
 
+std::string_view nameBefore(std::string_view text, std::size_t at) {
+    while (at > 0 && (isBlank(text[at - 1]) || text[at - 1] == '\n')) --at;
+    std::size_t begin = at;
+    while (begin > 0 && isNamePart(text[begin - 1])) --begin;
+    return text.substr(begin, at - begin);
+}
+
 Directive readDirective(std::string_view text) {
     text = trimBlank(text);
     if (!text.starts_with('#')) return {};

@@ -112,6 +112,8 @@ constexpr char kFinal = '\1';
 std::string_view trimBlank(std::string_view text);
 /// The name at the front of a text, or nothing.
 std::string_view leadingName(std::string_view text);
+/// The name or number that ends in front of `at`, over blanks and line ends; a part of `text`, perhaps empty.
+std::string_view nameBefore(std::string_view text, std::size_t at);
 constexpr bool isNameStart(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; }
 inline constexpr std::array<bool, 256> kNameParts = [] {
     std::array<bool, 256> parts{};

@@ -125,5 +125,28 @@ TEST(CocosChosenHead, ManyInALineDoNotMultiply) {
     EXPECT_LT(bench.fragmentText().flat.text.size(), 20'000u);
 }
 
+TEST(CocosChosenHead, ContinuedConditionsInTheRest) {
+    CocosBench bench;
+    bench.effect("out vec2 v_a;\nvoid main() { v_a = vec2(1.0); gl_Position = vec4(1.0); }\n",
+                 choice("TAKE(t)", "in highp t", "in t") + kColor +
+                     "TAKE(vec2)\n#if USE_A && \\\n  USE_B\n  v_b\n#else\n  v_a\n#endif\n;\n" +
+                     "void main() { color = vec4(1.0); }\n");
+    const std::string text = bench.fragmentText().flat.text;
+    EXPECT_THAT(text, HasSubstr("\nin highp vec2\n#if USE_A &&"));
+    EXPECT_THAT(text, HasSubstr("\nin vec2\n#if USE_A &&"));
+    compileBoth(bench);
+}
+
+TEST(CocosChosenHead, StatementsInABranchAreNotReadBeyondIt) {
+    CocosBench bench;
+    bench.effect("out vec2 v_a;\nvoid main() { v_a = vec2(1.0); gl_Position = vec4(1.0); }\n",
+                 choice("TAKE", "in highp", "in") + kColor +
+                     "#if USE_B\nTAKE vec2\n#else\nTAKE vec3\n#endif\n  v_a;\nvoid main() { color = vec4(1.0); }\n");
+    const std::string text = bench.fragmentText().flat.text;
+    std::ptrdiff_t open = 0;
+    for (const std::string& line : words(text)) open += int(line.starts_with("#if")) - int(line == "#endif");
+    EXPECT_EQ(open, 0);
+}
+
 }  // namespace
 }  // namespace crevice::cocos

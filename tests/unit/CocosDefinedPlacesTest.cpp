@@ -105,5 +105,47 @@ TEST(CocosDefinedPlaces, ContinuedLines) {
     bench.compile({{"USE_B", "1"}});
 }
 
+TEST(CocosDefinedPlaces, UndefInABranchLeavesTheNameThere) {
+    CocosBench bench;
+    bench.fragment("#define ADD(a, b) ((a) + (b))\n#if USE_A\n#undef ADD\n" +
+                   std::string("float ADD(float a, float b) { return a * b; }\n#endif\n") + kColor +
+                   mainOf("color = vec4(ADD(1.0," + kSplit + "));\n"));
+    EXPECT_THAT(bench.fragmentText().flat.text, HasSubstr("\n#else\nADD(1.0,"));
+    bench.compile();
+    bench.compile({{"USE_A", "1"}});
+}
+
+TEST(CocosDefinedPlaces, ADefinitionAboveAllConditionsHoldsBesideAnEqualOne) {
+    CocosBench bench;
+    bench.effect("out vec2 v;\nvoid main() { v = vec2(1.0); gl_Position = vec4(1.0); }\n",
+                 "#define HEAD in\n#if USE_A\n#ifndef HEAD\n#define HEAD in\n#endif\n#endif\nHEAD vec2 v;\n" + kColor +
+                     mainOf("color = v.xyxy;\n"));
+    bench.compile();
+    bench.compile({{"USE_A", "1"}});
+}
+
+TEST(CocosDefinedPlaces, ConditionsThatAskForADefinedNameAreNotTheSameTwice) {
+    CocosBench bench;
+    bench.fragment("#ifdef LATE\n#define ADD(a, b) ((a) + (b))\n#endif\n#define LATE\n" + kColor +
+                   "float ADD(float a, float b);\n#ifdef LATE\nfloat use() { return ADD(1.0," + kSplit +
+                   "); }\n#endif\n" + "float ADD(float a, float b) { return a + b; }\n" +
+                   mainOf("color = vec4(use());\n"));
+    bench.compile();
+}
+
+TEST(CocosDefinedPlaces, ConditionsNestAsDeepAsGlslTakes) {
+    const auto nested = [](int depth) {
+        std::string text;
+        for (int i = 0; i < depth; ++i) text += "#if USE_A\n";
+        for (int i = 0; i < depth; ++i) text += "#endif\n";
+        return text + kColor + mainOf("color = vec4(1.0);\n");
+    };
+    CocosBench bench;
+    bench.fragment(nested(64));
+    bench.compile({{"USE_A", "1"}});
+    bench.fragment(nested(65));
+    EXPECT_EQ(bench.problem().message, "conditions are nested deeper than 64");
+}
+
 }  // namespace
 }  // namespace crevice::cocos

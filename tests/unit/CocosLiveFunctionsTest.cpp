@@ -310,5 +310,55 @@ TEST(CocosLiveFunctions, TheirMacrosAreNotTheShaders) {
     bench.compile({{"USE_NEAR", "1"}});
 }
 
+TEST(CocosLiveFunctions, WhatIsNeverCompiledTurnsNothingOff) {
+    CocosBench bench;
+    const std::string main = "layout(location = 0) out vec4 color;\nvoid main() { color = vec4(1.0); }\n";
+    for (const char* never : {"#if 0\nfloat broken( { {\n#endif\n", "#if 1\n#else\n} ) {\n#endif\n",
+                              "#if 1\n#elif USE_X\n#if USE_Y\n}\n#endif\n#endif\n"}) {
+        bench.fragment(never + std::string("float gone() { return missing; }\n") + main);
+        EXPECT_THAT(bench.fragmentText().flat.text, testing::Not(testing::HasSubstr("gone"))) << never;
+    }
+    bench.fragment(
+        "#if 0\n#else\nfloat kept() { return 1.0; }\n#endif\nlayout(location = 0) out vec4 color;\n"
+        "void main() { color = vec4(kept()); }\n");
+    bench.compile();
+}
+
+TEST(CocosLiveFunctions, SemicolonsBehindBodiesThatAMacroWritesOrThatHaveSeveralHeads) {
+    CocosBench bench;
+    const std::string main = "layout(location = 0) out vec4 color;\nvoid main() { color = vec4(ONE); }\n";
+    bench.fragment(
+        "#define FN(n) float n(float x) { return x; }\n#define LONG(n) \\\n  float n(float x) { \\\n"
+        "    return x; \\\n  }\nFN(one);\nLONG(two);\n#define ONE one(two(1.0))\n" +
+        main);
+    bench.compile();
+    bench.fragment(
+        "#define LIST(n) float n[2] = {1.0, 2.0}\n#define KIND(n) struct n { float x; }\nLIST(one);\nKIND(Two);\n"
+        "#define ONE (one[0] + Two(1.0).x)\n" +
+        main);
+    bench.compile();  // Theirs end declarations.
+    bench.fragment(
+        "#if USE_A\nfloat one(float x)\n#else\nfloat one()\n#endif\n{ return 1.0; };\n#if USE_A\n"
+        "#define ONE one(1.0)\n#else\n#define ONE one()\n#endif\n" +
+        main);
+    bench.compile();
+    bench.compile({{"USE_A", "1"}});
+}
+
+TEST(CocosLiveFunctions, AMacroInOneBranchIsAFunctionInTheOther) {
+    CocosBench bench;
+    const std::string macro = "#define ADD(a, b) \\\n  (a \\\n#if USE_B \\\n  + b \\\n#endif \\\n  )\n";
+    const std::string function = "float ADD(float a, float b) { return a + b; }\n";
+    const std::string main = "layout(location = 0) out vec4 color;\nvoid main() { color = vec4(ADD(1.0, 2.0)); }\n";
+    for (const std::string& text : {"#if USE_A\n" + macro + "#else\n" + function + "#endif\n",
+                                    "#if USE_A\n" + function + "#else\n" + macro + "#endif\n",
+                                    "#if USE_A\n" + macro + "#endif\n#if !USE_A\n" + function + "#endif\n",
+                                    "#if USE_A\n" + macro + "#endif\n#ifndef ADD\n" + function + "#endif\n"}) {
+        bench.fragment(text + main);
+        for (const auto* a : {"0", "1"})
+            for (const auto* b : {"0", "1"}) bench.compile({{"USE_A", a}, {"USE_B", b}});
+    }
+}
+
 }  // namespace
 }  // namespace crevice::cocos

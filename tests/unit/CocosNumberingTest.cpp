@@ -260,5 +260,13 @@ TEST(CocosNumbering, HostileTextsEndInBoundedTime) {
     }
 }
 
+TEST(CocosNumbering, OneLocationForSeveralNamesIsAnError) {
+    Problems problems;
+    numbersOf({stageText(kVertexBit, "layout(location = 3) in vec2 a_one, a_two;\n")}, problems);
+    ASSERT_EQ(problems.all().size(), 1u);
+    EXPECT_EQ(problems.all().front().message, "'a_two' has location 3 of 'a_one'");
+    EXPECT_EQ(problems.all().front().where.column, 37);
+}
+
 }  // namespace
 }  // namespace crevice::cocos
