@@ -4,8 +4,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <string_view>
-#include <unordered_set>
+#include <unordered_map>
 
 #include "core/Files.h"
 #include "effect/SpirvCheck.h"
@@ -16,16 +17,15 @@ namespace {
 constexpr std::size_t kMostStages = 256;  ///< Of 20 to 100 KB each.
 constexpr std::string_view kDefine = "#define ";
 
-bool isNamePart(char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
-}
+constexpr std::array<bool, 256> kNameParts = [] {
+    std::array<bool, 256> parts{};
+    for (unsigned c = '0'; c <= '9'; ++c) parts[c] = true;
+    for (unsigned c = 'a'; c <= 'z'; ++c) parts[c] = parts[c - 'a' + 'A'] = true;
+    parts['_'] = true;
+    return parts;
+}();
 
-void addWords(std::string_view text, std::unordered_set<std::string_view>& words) {
-    for (std::size_t at = 0, end = 0; at < text.size(); at = end + 1) {
-        for (end = at; end < text.size() && isNamePart(text[end]);) ++end;
-        if (end > at) words.insert(text.substr(at, end - at));
-    }
-}
+bool isNamePart(char c) { return kNameParts[static_cast<unsigned char>(c)]; }
 
 /// The name that a line defines, with a value and no parameters; else nothing.
 std::string_view definedName(std::string_view line) {
@@ -35,6 +35,30 @@ std::string_view definedName(std::string_view line) {
     return end != line.end() && *end == ' ' ? std::string_view(line.begin(), end) : std::string_view();
 }
 
+/// Names, and which of them stand in texts.
+class NamedWords {
+public:
+    void watch(std::string_view name) {
+        named_.emplace(name, false);
+        lengths_[static_cast<unsigned char>(name.front())] |= 1ull << (name.size() & 63u);
+    }
+
+    void read(std::string_view text) {
+        for (std::size_t at = 0, end = 0; at < text.size(); at = end + 1) {
+            for (end = at; end < text.size() && isNamePart(text[end]);) ++end;
+            // Most words are passed over by one look.
+            if (end == at || (lengths_[static_cast<unsigned char>(text[at])] >> ((end - at) & 63u) & 1u) == 0) continue;
+            if (const auto it = named_.find(text.substr(at, end - at)); it != named_.end()) it->second = true;
+        }
+    }
+
+    bool isNamed(std::string_view name) const { return named_.find(name)->second; }
+
+private:
+    std::unordered_map<std::string_view, bool> named_;
+    std::array<std::uint64_t, 256> lengths_{};  ///< Of names, by their first character.
+};
+
 /// The head without definitions of what nothing in the stage names: they are the other stage's, and with other values
 /// of them this one stays what it is. All of it where the text puts names together.
 std::string usedHead(const StageSource& source) {
@@ -42,16 +66,18 @@ std::string usedHead(const StageSource& source) {
     std::vector<std::string_view> lines;
     for (std::string_view rest = source.head; !rest.empty(); rest.remove_prefix(lines.back().size()))
         lines.push_back(rest.substr(0, std::min(rest.find('\n'), rest.size() - 1) + 1));
-    std::unordered_set<std::string_view> words;
-    addWords(source.text, words);
+    NamedWords words;
+    for (const std::string_view line : lines)
+        if (const std::string_view name = definedName(line); !name.empty()) words.watch(name);
+    words.read(source.text);
     for (const std::string_view line : lines) {
         const std::string_view name = definedName(line);
-        addWords(line.substr(name.empty() ? 0 : kDefine.size() + name.size()), words);
+        words.read(line.substr(name.empty() ? 0 : kDefine.size() + name.size()));
     }
     std::string used;
     for (const std::string_view line : lines) {
         const std::string_view name = definedName(line);
-        if (name.empty() || words.contains(name)) used += line;
+        if (name.empty() || words.isNamed(name)) used += line;
     }
     return used;
 }
