@@ -9,8 +9,7 @@
 namespace crevice::cocos {
 
 void Flattener::noteChoice(const MacroDefinition& macro, Origin origin) {
-    const std::size_t number =
-        choices_.add(macro, places_.here(), !table_->isChosen(macro.name), !places_.isConditional());
+    const std::size_t number = choices_.add(macro, places_.here(), !places_.isConditional());
     if (number > MacroChoices::kMaxOfName)
         return stop(macro.body.front().text, origin,
                     fmt::format("macro '{}' has more than {} definitions", macro.name, MacroChoices::kMaxOfName),

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 #include "cocos/FlattenRun.h"
@@ -181,15 +182,12 @@ bool Flattener::expand(const MacroDefinition& macro, const std::vector<std::stri
     const bool single = macro.body.size() == 1 && !macro.bearsDirectives;
     BodyLines lines;
     for (const auto& part : macro.body) {
-        std::string text = substitute(part.text, macro.parameters, arguments);
+        const std::string text = substitute(part.text, macro.parameters, arguments);
         written_ += text.size();
         const Origin origin = single ? call : Origin{file, part.line};
-        for (std::size_t end; (end = text.find('\n')) != std::string::npos; text.erase(0, end + 1)) {
-            lines.texts.push_back(text.substr(0, end));  // An argument with conditions.
-            lines.origins.push_back(origin);
-        }
-        lines.texts.push_back(std::move(text));
-        lines.origins.push_back(origin);
+        BodyLines parts = splitLines(text, origin);  // Several for an argument with conditions.
+        std::move(parts.texts.begin(), parts.texts.end(), std::back_inserter(lines.texts));
+        lines.origins.insert(lines.origins.end(), parts.origins.begin(), parts.origins.end());
     }
     if (written_ > limits_.maxBytes) stopExpanding(macro);
     const bool endsInDirective = writeLines(lines, pending, *macro.source, !single);

@@ -9,6 +9,7 @@
 
 #include "cocos/DefinedPlaces.h"
 #include "cocos/MacroCall.h"
+#include "cocos/MacroTable.h"
 
 namespace crevice::cocos {
 
@@ -22,21 +23,22 @@ public:
         const MacroDefinition* macro = nullptr;
         std::size_t number = 1;
     };
-    /// Returns the definition's number. One `equal` to those above joins them; one that is `certain` ends them.
-    std::size_t add(const MacroDefinition& macro, DefinedPlaces::Place place, bool equal, bool certain) {
+    /// Returns the definition's number: that of an equal one above. One that is `certain` ends all above.
+    std::size_t add(const MacroDefinition& macro, DefinedPlaces::Place place, bool certain) {
         Name& name = choices_[macro.name];
         name.hoisted = name.hoisted || macro.fromPragma;
         if (certain && !name.hoisted) {
             name.all.clear();
             name.undone = false;
         }
-        if (!equal || name.all.empty()) name.all.push_back({{&macro, ++name.count}, {}, false});
-        Choice& last = name.all.back();
-        if (last.places.size() < kMaxPlaces)
-            last.places.push_back(std::move(place));
+        auto same = std::find_if(name.all.begin(), name.all.end(),
+                                 [&](const Choice& one) { return areEqual(*one.option.macro, macro); });
+        if (same == name.all.end()) same = name.all.insert(same, {{&macro, ++name.count}, {}, false});
+        if (same->places.size() < kMaxPlaces)
+            same->places.push_back(std::move(place));
         else
-            last.elsewhere = true;
-        return last.option.number;
+            same->elsewhere = true;
+        return same->option.number;
     }
     bool contains(std::string_view name) const { return choices_.contains(name); }
     bool isTaken(std::string_view name) const { return std::find(taken_.begin(), taken_.end(), name) != taken_.end(); }

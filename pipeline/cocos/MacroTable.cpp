@@ -23,6 +23,12 @@ bool pastes(const MacroDefinition& macro) {
 
 }  // namespace
 
+bool areEqual(const MacroDefinition& a, const MacroDefinition& b) {
+    return a.parameters == b.parameters && a.functionLike == b.functionLike &&
+           std::equal(a.body.begin(), a.body.end(), b.body.begin(), b.body.end(),
+                      [](const auto& x, const auto& y) { return trimBlank(x.text) == trimBlank(y.text); });
+}
+
 MacroTable::MacroTable(const SourceText& program, const Resolve& resolve, std::size_t maxSources) {
     visit(program, resolve, maxSources);
     findRedefined();
@@ -250,14 +256,9 @@ bool MacroTable::expandAround() {
 }
 
 void MacroTable::findRedefined() {
-    const auto equal = [](const MacroDefinition& a, const MacroDefinition& b) {
-        return a.parameters == b.parameters && a.functionLike == b.functionLike &&
-               std::equal(a.body.begin(), a.body.end(), b.body.begin(), b.body.end(),
-                          [](const auto& x, const auto& y) { return trimBlank(x.text) == trimBlank(y.text); });
-    };
     for (const auto& [name, definitions] : byName_)
         for (const MacroDefinition* macro : definitions)
-            if (!equal(*macro, *definitions.front())) redefined_.insert(name);
+            if (!areEqual(*macro, *definitions.front())) redefined_.insert(name);
 }
 
 void MacroTable::chooseChosen() {

@@ -70,6 +70,9 @@ private:
     std::array<bool, 128> firstLetters_{};           ///< Of the expanded names: most words are passed over by one look.
 };
 
+/// The same parameters and the same words in the same lines.
+bool areEqual(const MacroDefinition& a, const MacroDefinition& b);
+
 /// The macro that says in a text which definition of a chosen one holds, 1 for the first.
 inline std::string choiceOf(std::string_view name) { return "crevice_choice_" + std::string(name); }
 
