@@ -19,6 +19,8 @@
 namespace crevice::cocos {
 namespace {
 
+constexpr std::size_t kMaxNeeds = 1'000'000;  ///< Names that branches need, of a stage.
+
 class Analysis {
 public:
     Analysis(StageText& out, std::vector<FlatDirective> directives, Problems& problems)
@@ -254,12 +256,17 @@ private:
         if (std::exchange(macro.inferred, false)) inferNumber(macro);
     }
 
-    static std::vector<std::string> needsOf(const Frame& frame) {
+    std::vector<std::string> needsOf(const Frame& frame) {
         std::vector<std::string> needs;
+        if (needs_ > kMaxNeeds) return needs;
         std::unordered_set<std::string_view> known;
         for (const auto* part : {&frame.outer, &frame.earlier, &frame.current})
             for (const std::string& need : *part)
                 if (known.insert(need).second) needs.push_back(need);
+        needs_ += needs.size();
+        if (needs_ > kMaxNeeds && place_ != nullptr)
+            problems_.error(placeOf(*place_), "the branches of this stage's conditions are too many to keep",
+                            "an #elif needs all that stands above it not to hold: write fewer in one condition");
         return needs;
     }
 
@@ -322,7 +329,7 @@ private:
     const FlatDirective* place_ = nullptr;
     std::vector<FunctionRange> dead_;
     std::unordered_set<std::string_view> words_;  ///< Of what is alive, once somebody asks.
-    std::size_t nextDead_ = 0;
+    std::size_t nextDead_ = 0, needs_ = 0;
     std::size_t filled_ = 0;
     std::uint32_t present_ = 0;
 };

@@ -168,5 +168,35 @@ TEST(CocosMacroArgument, AStatementEndsBehindTheLastBranch) {
     bench.compile({{"USE_A", "1"}});
 }
 
+// Bounded by what is written and read, not by time: each of these took seconds or never ended.
+TEST(CocosMacroArgument, WhatMultipliesEnds) {
+    const auto repeat = [](const std::string& text, int count) {
+        std::string all;
+        for (int i = 0; i < count; ++i) all += text;
+        return all;
+    };
+    CocosBench bench;
+    const std::string main = kColor + "void main() { color = vec4(1.0); }\n";
+    const std::string add = "#define ADD(a, b) (a + b)\n#define CH(x) \\\n#if USE_A \\\n x \\\n#endif\n";
+    bench.fragment(add + "#define TWICE(x) x x\nfloat z() { return " + repeat("TWICE(", 20) + "CH(1.0)" +
+                   repeat(")", 20) + "; }\n" + main);
+    EXPECT_THAT(bench.problem().message, HasSubstr("write more than it can hold"));
+    bench.fragment(add + "float z() { return ADD(1.0\n" + repeat("#if USE_A\n, 2.0\n#else\n, 3.0\n#endif\n", 400) +
+                   "); }\n" + main);
+    EXPECT_THAT(bench.compileError(), HasSubstr("error"));
+    bench.fragment(add + repeat("ADD(1.0\n#if USE_A\n, 2.0\n#endif\n", 8000) + main);
+    EXPECT_EQ(bench.problem().message, "the call of macro 'ADD' is not closed within 64 KB");
+    bench.fragment(add + "#if USE_A\n" + repeat("#undef ADD\n#define ADD(a, b) a\n", 5000) + "#endif\n" + main);
+    EXPECT_EQ(bench.problem().message, "");  // Equal ones are one.
+    std::string branches = "#if USE_A\n", choices;
+    for (int i = 0; i < 6000; ++i) branches += "#elif USE_" + std::to_string(i) + "\n";
+    bench.fragment(branches + "#endif\n" + main);
+    EXPECT_EQ(bench.problem().message, "the branches of this stage's conditions are too many to keep");
+    for (int i = 0; i < 251; ++i)
+        choices += "#if USE_" + std::to_string(i) + "\n#define CH(x) x * " + std::to_string(i) + "\n#endif\n";
+    bench.fragment(add + choices + main);
+    EXPECT_EQ(bench.problem().message, "macro 'CH' has more than 250 definitions");
+}
+
 }  // namespace
 }  // namespace crevice::cocos
