@@ -48,15 +48,20 @@ public:
 
 private:
     void readDescs(const Value& root, RppPipeline& pipeline) {
-        for (const Value* item : descs_.objects(root, "renderTextures", "RenderTextureConfig"))
-            pipeline.renderTextures.push_back(descs_.renderTexture(*item));
-        for (const Value* item : descs_.objects(root, "textures", "RenderTextureDesc"))
+        // Up to 3.0 descriptions stood in this list; "textures" has them later.
+        for (const Value* item : descs_.objects(root, "renderTextures", {"RenderTextureConfig", "RenderTextureDesc"})) {
+            if (typeOf(*item) == "RenderTextureDesc")
+                pipeline.textures.push_back(descs_.textureDesc(*item));
+            else
+                pipeline.renderTextures.push_back(descs_.renderTexture(*item));
+        }
+        for (const Value* item : descs_.objects(root, "textures", {"RenderTextureDesc"}))
             pipeline.textures.push_back(descs_.textureDesc(*item));
-        for (const Value* item : descs_.objects(root, "materials", "MaterialConfig"))
+        for (const Value* item : descs_.objects(root, "materials", {"MaterialConfig"}))
             pipeline.materials.push_back(descs_.material(*item));
-        for (const Value* item : descs_.objects(root, "renderPasses", "RenderPassDesc"))
+        for (const Value* item : descs_.objects(root, "renderPasses", {"RenderPassDesc"}))
             pipeline.renderPasses.push_back(descs_.renderPass(*item));
-        for (const Value* item : descs_.objects(root, "framebuffers", "FrameBufferDesc"))
+        for (const Value* item : descs_.objects(root, "framebuffers", {"FrameBufferDesc"}))
             pipeline.frameBuffers.push_back(descs_.frameBuffer(*item));
     }
 
@@ -99,7 +104,7 @@ private:
         stage.tag = fields.integer("_tag", 0);
         stage.enabled = fields.boolean(fields.firstOf({"_enabled", "enabled"}), true);
         checkType(object, stage.type, "a stage");
-        for (const Value* queue : descs_.objects(object, "renderQueues", "RenderQueueDesc"))
+        for (const Value* queue : descs_.objects(object, "renderQueues", {"RenderQueueDesc"}))
             stage.queues.push_back(descs_.queue(*queue));
         stage.fields = readFields(object);
         return stage;

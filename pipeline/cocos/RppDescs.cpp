@@ -1,21 +1,23 @@
 // Field by field; every default is that of the engine's class.
 #include "cocos/RppDescs.h"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 namespace crevice::cocos {
 
 std::vector<const Value*> RppDescReader::objects(const Value& owner, std::string_view key,
-                                                 std::string_view type) const {
+                                                 std::initializer_list<std::string_view> types) const {
     std::vector<const Value*> found;
     const Value* list = FieldReader(owner, problems_).list(key);
     for (const Value* object : graph_.resolveList(list, fmt::format("'{}'", key), problems_)) {
         const std::string written = typeOf(*object);
-        if (written == type) {
+        if (std::find(types.begin(), types.end(), written) != types.end()) {
             found.push_back(object);
         } else {
             problems_.error(object->where(), fmt::format("an item of '{}' is of type '{}'", key, written),
-                            fmt::format("name an object of type '{}'", type));
+                            fmt::format("name an object of type '{}'", *types.begin()));
         }
     }
     return found;
@@ -84,7 +86,7 @@ RppAttachment RppDescReader::attachment(const Value& object) const {
 RppRenderPass RppDescReader::renderPass(const Value& object) const {
     const FieldReader fields(object, problems_);
     RppRenderPass pass{.index = fields.integer("index", -1), .where = object.where()};
-    for (const Value* color : objects(object, "colorAttachments", "ColorDesc")) {
+    for (const Value* color : objects(object, "colorAttachments", {"ColorDesc"})) {
         pass.colors.push_back(attachment(*color));
     }
     if (const Value* depth = fields.find("depthStencilAttachment")) {

@@ -16,8 +16,9 @@ public:
     RppMaterial material(const Value& object) const;
     RppRenderPass renderPass(const Value& object) const;
     RppFrameBuffer frameBuffer(const Value& object) const;
-    /// All objects of a list that are of `type`; "" and null items are left out (templates write `""`).
-    std::vector<const Value*> objects(const Value& owner, std::string_view key, std::string_view type) const;
+    /// All objects of a list that are of one of `types`; "" and null items are left out (templates write `""`).
+    std::vector<const Value*> objects(const Value& owner, std::string_view key,
+                                      std::initializer_list<std::string_view> types) const;
 
 private:
     RppAttachment attachment(const Value& object) const;

@@ -55,6 +55,19 @@ double fluxPerLuminance(double size) { return 4 * kPi * kPi * size * size; }
 
 }  // namespace
 
+std::string componentType(const Value& component) {
+    std::string type = typeOf(component);
+    if (type == "cc.ModelComponent") return "cc.MeshRenderer";
+    if (type == "cc.SkinningModelComponent") return "cc.SkinnedMeshRenderer";
+    constexpr std::string_view kOldEnding = "Component";
+    if (type.starts_with("cc.") && type.ends_with(kOldEnding)) type.resize(type.size() - kOldEnding.size());
+    return type;
+}
+
+bool isMeshRenderer(std::string_view type) { return type == "cc.MeshRenderer" || isSkinnedRenderer(type); }
+
+bool isSkinnedRenderer(std::string_view type) { return type == "cc.SkinnedMeshRenderer"; }
+
 double exposureOf(double ev) { return 1 / (1.2 * std::exp2(ev)); }
 
 glm::vec4 readVector(const Value& object, std::string_view key, const glm::vec4& otherwise, Problems& problems) {
@@ -117,7 +130,7 @@ ImportedCamera readCamera(const Value& component, const glm::mat4& world, Proble
 std::optional<Light> readLight(const Value& component, const glm::mat4& world, bool hdr, double exposure,
                                Problems& problems) {
     const FieldReader fields(component, problems);
-    const std::string type = typeOf(component);
+    const std::string type = componentType(component);
     Light light;
     light.color = glm::vec3(readVector(component, "_color", glm::vec4(1), problems));
     light.position = glm::vec3(world[3]);

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <optional>
+#include <string>
+#include <string_view>
 
 #include "cocos/ObjectGraph.h"
 #include "scene/Scene.h"
@@ -16,6 +18,11 @@ struct ImportedCamera {
     std::optional<glm::vec4> clearColor{};
     bool showsSky = false;  ///< It clears with the sky.
 };
+
+/// The type of a component under its name of 3.x: earlier ones were "cc.CameraComponent", "cc.ModelComponent", …
+std::string componentType(const Value& component);
+bool isMeshRenderer(std::string_view type);
+bool isSkinnedRenderer(std::string_view type);
 
 /// `world`: of the node. Fields that are missing have the engine's defaults.
 ImportedCamera readCamera(const Value& component, const glm::mat4& world, Problems& problems);

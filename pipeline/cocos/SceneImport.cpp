@@ -8,16 +8,14 @@
 
 #include "cocos/PrefabOverrides.h"
 #include "cocos/SceneComponents.h"
-#include "cocos/SceneGlobals.h"
 #include "cocos/SceneModels.h"
-#include "cocos/SceneSky.h"
+#include "cocos/SceneSurroundings.h"
 #include "cocos/TakeOver.h"
 
 namespace crevice::cocos {
 namespace {
 
 constexpr DocumentLimits kSceneLimits{.maxBytes = 256u << 20, .maxDepth = 64, .maxNodes = 8'000'000};
-constexpr int kMaxPrefabs = 1;  ///< Prefabs inside of prefabs are left out.
 
 /// Bookkeeping of nodes that draws nothing.
 constexpr std::string_view kSilent[] = {"cc.UITransform", "cc.Widget", "cc.Animation", "cc.SkeletalAnimation"};
@@ -45,18 +43,26 @@ public:
         out_.scene.name = path.stem().string();
         const Value* written = root->find("_globals");
         const Value* globals = written ? graph.resolve(*written, "'_globals'", problems_) : nullptr;
-        hdr_ = isHdr(graph, globals);
+        facts_.hdr = isHdr(graph, globals, problems_);
+        const Inside scene{&graph};
         lights_ = false;
-        walk(graph, *root, glm::mat4(1), 0, 0);
+        walk(scene, *root, glm::mat4(1), 0);
         takeCameras();
         lights_ = true;
-        walk(graph, *root, glm::mat4(1), 0, 0);
-        readGlobals(graph, globals);
+        walk(scene, *root, glm::mat4(1), 0);
+        readSurroundings(graph, globals, facts_, project_, options_, out_, skipped_, problems_);
         noteSkipped();
         return std::move(out_);
     }
 
 private:
+    /// The file that a node lies in, and the instances of prefabs around it.
+    struct Inside {
+        const ObjectGraph* graph = nullptr;
+        PrefabScopes scopes{};
+        const MetaAsset* model = nullptr;  ///< The file is a glTF, read as a prefab.
+    };
+
     struct Place {
         const Value* node = nullptr;
         glm::mat4 world{1};
@@ -77,82 +83,78 @@ private:
                     R"(let it name the root: { "__id__": N })");
     }
 
-    const Value* section(const ObjectGraph& graph, const Value& globals, std::initializer_list<const char*> keys) {
-        for (const char* key : keys) {
-            const Value* value = globals.find(key);
-            if (value && !value->isNull()) return graph.resolve(*value, fmt::format("'{}'", key), problems_);
+    /// `rootId`: of the root of a prefab, as its instance has it.
+    void walk(const Inside& in, const Value& node, const glm::mat4& parent, int depth, const std::string& rootId = {}) {
+        if (!mayEnter(node, depth)) return;
+        const std::string id = rootId.empty() ? prefabIdOf(*in.graph, node, "_prefab", problems_) : rootId;
+        Value changed;
+        const Value& here = withChanges(in.scopes, id, node, changed);
+        const FieldReader fields(here, problems_);
+        if (!fields.boolean("_active", true)) return;
+        if (const Value* instance = prefabInstance(*in.graph, node)) return placePrefab(in, *instance, parent, depth);
+        const glm::mat4 world = parent * readTransform(here, problems_);
+        path_.push_back({&node, world});
+        const std::string name = fields.text("_name", "node");
+        for (const Value* component : in.graph->resolveList(fields.list("_components"), "'_components'", problems_))
+            visit(in, *component, world, name);
+        for (const Value* child : in.graph->resolveList(fields.list("_children"), "'_children'", problems_))
+            walk(in, *child, world, depth + 1);
+        addMounted(in, id, world, name, depth);
+        path_.pop_back();
+    }
+
+    /// What instances around a node hang below it: nodes of the files that hold the instances.
+    void addMounted(const Inside& in, const std::string& id, const glm::mat4& world, const std::string& name,
+                    int depth) {
+        for (std::size_t i = 0; i < in.scopes.size() && !id.empty(); ++i) {
+            const PrefabScope& scope = in.scopes[i];
+            const Inside outside{scope.graph, {in.scopes.begin() + std::ptrdiff_t(i) + 1, in.scopes.end()}};
+            for (const Value* component : scope.changes->components(scope.prefix + id))
+                visit(outside, *component, world, name);
+            for (const Value* child : scope.changes->children(scope.prefix + id))
+                walk(outside, *child, world, depth + 1);
         }
-        return nullptr;
     }
 
-    bool isHdr(const ObjectGraph& graph, const Value* globals) {
-        const Value* skybox = globals ? section(graph, *globals, {"_skybox", "skybox"}) : nullptr;
-        if (!skybox) return true;
-        const FieldReader fields(*skybox, problems_);
-        return fields.boolean(fields.firstOf({"_useHDR", "_isHDR"}), true);
-    }
-
-    void walk(const ObjectGraph& graph, const Value& node, const glm::mat4& parent, int depth, int prefabs) {
+    bool mayEnter(const Value& node, int depth) {
         if (depth > options_.limits.maxNodeDepth) {
             problems_.error(node.where(),
                             fmt::format("nodes nested deeper than {} levels", options_.limits.maxNodeDepth),
                             "flatten the scene");
-            return;
+            return false;
         }
         if (std::any_of(path_.begin(), path_.end(), [&](const Place& place) { return place.node == &node; })) {
             problems_.error(node.where(), "this node is one of its own children", "let '_children' name other nodes");
-            return;
+            return false;
         }
-        if (++visited_ > 2 * options_.limits.maxInstances) {
-            if (visited_ == 2 * options_.limits.maxInstances + 1)
-                problems_.error(node.where(), fmt::format("more than {} nodes", options_.limits.maxInstances),
-                                "split the scene");
-            return;
-        }
-        Value changed;
-        const Value& here = withChanges(graph, node, "_prefab", changed);
-        const FieldReader fields(here, problems_);
-        if (!fields.boolean("_active", true)) return;
-        if (const Value* instance = prefabInstance(graph, node))
-            return placePrefab(graph, node, *instance, parent, depth, prefabs);
-        const glm::mat4 world = parent * readTransform(here, problems_);
-        path_.push_back({&node, world});
-        for (const Value* component : graph.resolveList(fields.list("_components"), "'_components'", problems_))
-            visit(graph, *component, world, fields.text("_name", "node"));
-        for (const Value* child : graph.resolveList(fields.list("_children"), "'_children'", problems_))
-            walk(graph, *child, world, depth + 1, prefabs);
-        path_.pop_back();
+        if (++visited_ == 2 * options_.limits.maxInstances + 1)
+            problems_.error(node.where(), fmt::format("more than {} nodes", options_.limits.maxInstances),
+                            "split the scene");
+        return visited_ <= 2 * options_.limits.maxInstances;
     }
 
-    /// A node or component, or a copy of it with what an instance of its prefab changes.
-    const Value& withChanges(const ObjectGraph& graph, const Value& object, const char* key, Value& copy) {
-        const std::string id = changes_ ? prefabIdOf(graph, object, key, problems_) : std::string();
-        if (!changes_ || !changes_->has(id)) return object;
-        copy = object;
-        changes_->apply(id, copy);
-        return copy;
-    }
-
-    void visit(const ObjectGraph& graph, const Value& written, const glm::mat4& world, const std::string& name) {
+    void visit(const Inside& in, const Value& written, const glm::mat4& world, const std::string& name) {
+        const std::string id = prefabIdOf(*in.graph, written, "__prefab", problems_);
+        if (isRemoved(in.scopes, id)) return;
         Value changed;
-        const Value& component = withChanges(graph, written, "__prefab", changed);
+        const Value& component = withChanges(in.scopes, id, written, changed);
         const FieldReader fields(component, problems_);
         if (!fields.boolean("_enabled", true)) return;
-        const std::string type = typeOf(component);
+        const std::string type = componentType(component);
         if (type == "cc.Camera") {
             if (!lights_) cameras_.push_back(readCamera(component, world, problems_));
             if (!lights_) cameras_.back().camera.name = name;
             return;
         }
         if (!lights_) return;
-        if (auto light = readLight(component, world, hdr_, exposure_, problems_)) {
+        if (auto light = readLight(component, world, facts_.hdr, facts_.exposure, problems_)) {
             light->name = name;
             const bool sun = light->type == LightType::Directional && light->castsShadow;
-            cascades_ = cascades_ || (sun && fields.integer("_csmLevel", 1) > 1);
+            facts_.cascades = facts_.cascades || (sun && fields.integer("_csmLevel", 1) > 1);
             if (fields.boolean("_useColorTemperature", false)) ++skipped_["colour temperature of lights"];
             out_.scene.lights.push_back(std::move(*light));
-        } else if (type == "cc.MeshRenderer" || type == "cc.SkinnedMeshRenderer" || type == "cc.ModelComponent") {
-            addRenderer(component, placeOf(graph, component, world), name);
+        } else if (isMeshRenderer(type)) {
+            addRenderer(in, component, placeOf(*in.graph, component, world), name);
         } else if (std::find(std::begin(kSilent), std::end(kSilent), type) == std::end(kSilent)) {
             ++skipped_[type.empty() ? "components without a type" : type];
         }
@@ -160,7 +162,7 @@ private:
 
     /// Skinned vertices are posed where the model's root is: the renderer's own node does not count.
     glm::mat4 placeOf(const ObjectGraph& graph, const Value& component, const glm::mat4& world) {
-        if (typeOf(component) != "cc.SkinnedMeshRenderer") return world;
+        if (!isSkinnedRenderer(componentType(component))) return world;
         const Value* written = FieldReader(component, problems_).find("_skinningRoot");
         const Value* root = written ? graph.resolve(*written, "'_skinningRoot'", problems_) : nullptr;
         for (const Place& place : path_)
@@ -168,11 +170,14 @@ private:
         return world;
     }
 
-    void addRenderer(const Value& component, const glm::mat4& world, const std::string& name) {
+    void addRenderer(const Inside& in, const Value& component, const glm::mat4& world, const std::string& name) {
         const FieldReader fields(component, problems_);
         const AssetRef mesh = fields.asset("_mesh");
         if (!mesh) return;
-        const std::vector<ModelPart> parts = models_.mesh(mesh, fmt::format("the mesh of '{}'", name));
+        const bool ofModel = in.model && mesh.uuid == in.model->uuid;
+        const std::vector<ModelPart> parts =
+            ofModel ? models_.partsOfNode(*in.model, int(fields.integer(kGltfNode, -1)), mesh)
+                    : models_.mesh(mesh, fmt::format("the mesh of '{}'", name));
         const Value* materials = fields.list("_materials");
         const bool casts = fields.integer("_shadowCastingMode", 0) != 0;
         const bool receives = fields.integer("_shadowReceivingMode", 1) != 0;
@@ -219,43 +224,63 @@ private:
         return instance && !instance->isNull() ? info : nullptr;
     }
 
-    void placePrefab(const ObjectGraph& graph, const Value& node, const Value& info, const glm::mat4& parent, int depth,
-                     int prefabs) {
-        const AssetRef ref = FieldReader(info, problems_).asset("asset");
+    void placePrefab(const Inside& in, const Value& info, const glm::mat4& parent, int depth) {
+        const FieldReader fields(info, problems_);
+        const AssetRef ref = fields.asset("asset");
         const MetaAsset* asset = ref ? project_.find(ref, "a prefab", problems_) : nullptr;
-        if (!asset) return;
-        const Value* instance = graph.resolve(*info.find("instance"), "'instance'", problems_);
+        const Value* instance = asset ? in.graph->resolve(*info.find("instance"), "'instance'", problems_) : nullptr;
         if (!instance) return;
-        PrefabOverrides changes(graph, *instance, problems_);
-        const std::string rootId = FieldReader(info, problems_).text("fileId");
-        if (SceneModels::isModel(*asset)) {
-            Value placed = Value::makeObject(node.where());
-            changes.apply(rootId, placed);
-            const bool active = FieldReader(placed, problems_).boolean("_active", true);
-            if (lights_ && active) models_.placeModel(*asset, parent * readTransform(placed, problems_), ref);
-        } else if (asset->path.extension() != ".prefab" || prefabs >= kMaxPrefabs) {
-            if (lights_) ++skipped_[prefabs >= kMaxPrefabs ? "prefabs inside of prefabs" : "models that are not glTF"];
+        if (std::find(prefabPath_.begin(), prefabPath_.end(), asset->path) != prefabPath_.end()) {
+            problems_.error(ref.where, fmt::format("prefab '{}' is a part of itself", asset->path.string()),
+                            "let one of its nodes name another prefab");
             return;
-        } else {
-            walkPrefab(*asset, rootId, changes, parent, depth);
         }
-        if (lights_ && changes.left() > 0) skipped_["changes inside of prefabs"] += changes.left();
-    }
-
-    void walkPrefab(const MetaAsset& asset, const std::string& rootId, PrefabOverrides& changes,
-                    const glm::mat4& parent, int depth) {
+        PrefabOverrides own(*in.graph, *instance, problems_);
+        Inside inside{nullptr,
+                      enterInstance(in.scopes, own, *in.graph, FieldReader(*instance, problems_).text("fileId"))};
+        const std::string rootId = fields.text("fileId");
+        const bool isModel = SceneModels::isModel(*asset);
+        if (!isModel && asset->path.extension() != ".prefab") {
+            if (lights_) ++skipped_["models that are not glTF"];
+            return;
+        }
+        prefabPath_.push_back(asset->path);
         try {
-            auto& prefab = prefabs_[asset.path];
-            if (!prefab) prefab = std::make_unique<ObjectGraph>(ObjectGraph::read(asset.path, kSceneLimits));
-            Value root = *rootNode(*prefab);
-            changes.apply(rootId, root);
-            root.erase("_prefab");
-            changes_ = &changes;
-            walk(*prefab, root, parent, depth + 1, kMaxPrefabs);
+            if (isModel)
+                placeModel(*asset, rootId, inside, parent, depth, ref);
+            else
+                walkPrefab(*asset, rootId, inside, parent, depth);
         } catch (const Error& error) {
             problems_.add(error);
         }
-        changes_ = nullptr;
+        prefabPath_.pop_back();
+        if (lights_ && own.left() > 0) skipped_["changes inside of prefabs"] += own.left();
+    }
+
+    /// As it is in its file, unless instances change more of it than its root.
+    void placeModel(const MetaAsset& asset, const std::string& rootId, Inside& inside, const glm::mat4& parent,
+                    int depth, const AssetRef& ref) {
+        const bool changed = std::any_of(inside.scopes.begin(), inside.scopes.end(), [&](const PrefabScope& scope) {
+            return scope.changes->reachesBeside(scope.prefix, scope.prefix + rootId);
+        });
+        inside.graph = changed ? models_.prefab(asset, ref) : nullptr;
+        if (inside.graph) {
+            inside.model = &asset;
+            return walk(inside, *rootNode(*inside.graph), parent, depth + 1, rootId);
+        }
+        const Value root = Value::makeObject();
+        Value copy;
+        const Value& placed = withChanges(inside.scopes, rootId, root, copy);
+        const bool active = FieldReader(placed, problems_).boolean("_active", true);
+        if (lights_ && active) models_.placeModel(asset, parent * readTransform(placed, problems_), ref);
+    }
+
+    void walkPrefab(const MetaAsset& asset, const std::string& rootId, Inside& inside, const glm::mat4& parent,
+                    int depth) {
+        auto& prefab = prefabs_[asset.path];
+        if (!prefab) prefab = std::make_unique<ObjectGraph>(ObjectGraph::read(asset.path, kSceneLimits));
+        inside.graph = prefab.get();
+        walk(inside, *rootNode(*prefab), parent, depth + 1, rootId);
     }
 
     void takeCameras() {
@@ -269,77 +294,10 @@ private:
         if (!cameras_.empty()) {
             ev = cameras_.front().ev;
             out_.background = cameras_.front().clearColor;
-            showsSky_ = cameras_.front().showsSky;
+            facts_.showsSky = cameras_.front().showsSky;
         }
         out_.scene.exposureEv = float(ev);
-        exposure_ = exposureOf(ev);
-    }
-
-    void readGlobals(const ObjectGraph& graph, const Value* globals) {
-        const Value none = Value::makeObject();
-        const Value* shadows = globals ? section(graph, *globals, {"shadows", "_shadows"}) : nullptr;
-        takeShadows(readShadows(shadows ? *shadows : none, problems_));
-        const Value* ambient = globals ? section(graph, *globals, {"ambient", "_ambient"}) : nullptr;
-        const Value& light = ambient ? *ambient : none;
-        out_.scene.ambient = readAmbient(light, hdr_, exposure_, problems_);
-        if (const Value* fog = globals ? section(graph, *globals, {"fog", "_fog"}) : nullptr)
-            out_.scene.fog = readFog(*fog, exposure_, problems_);
-        if (const Value* skybox = globals ? section(graph, *globals, {"_skybox", "skybox"}) : nullptr)
-            takeSky(*skybox, readSkyIlluminance(light, hdr_, exposure_, problems_));
-        noteDarkness(light);
-    }
-
-    /// The exposure of a .scene is that of daylight: nothing else would say why the picture is black.
-    void noteDarkness(const Value& ambient) {
-        const Ambient& around = *out_.scene.ambient;
-        const bool dark = around.sky == glm::vec3(0) && around.ground == glm::vec3(0) && !litByEnvironment(out_.scene);
-        if (!out_.scene.lights.empty() || problems_.hasErrors()) return;
-        if (dark)
-            problems_.warning(ambient.where(),
-                              "nothing lights this scene: it has no lights, and its ambient light is 0",
-                              "add a light, or raise '_skyIllum'");
-        else
-            problems_.note({}, "the scene has no lights: its ambient light or its sky alone lights it");
-    }
-
-    void takeShadows(const ImportedShadows& shadows) {
-        if (shadows.planar) ++skipped_["planar shadows"];
-        if (shadows.maps && shadows.size != glm::uvec2(0)) out_.shadowMap = shadows.size;
-        if (shadows.maps && cascades_) ++skipped_["cascades of shadow maps: the light has one map"];
-        for (Light& light : out_.scene.lights) {
-            light.castsShadow = light.castsShadow && shadows.maps;
-            if (!light.shadow) light.shadow = shadows.look;
-        }
-    }
-
-    void takeSky(const Value& info, double illuminance) {
-        const ImportedSky sky = readSkybox(info, hdr_, problems_);
-        if (!sky.enabled || (!sky.lights && !showsSky_)) return;
-        if (sky.ownEffect) ++skipped_["the material of the sky"];
-        const MetaAsset* asset = sky.picture ? project_.metas().find(sky.picture.uuid) : nullptr;
-        if (!asset || !isPanorama(asset->path)) {
-            noteSky(sky, asset);
-            return;
-        }
-        try {
-            out_.scene.environment = readSky(*asset, options_.log, options_.limits);
-            out_.scene.environment->intensity = float(illuminance);
-            out_.scene.environment->rotation = float(glm::radians(sky.rotation));
-            out_.scene.environment->visible = showsSky_;
-            out_.scene.environment->lights = sky.lights;
-        } catch (const Error& error) {
-            const Problem& why = error.problems().front();
-            problems_.warning(sky.picture.where, fmt::format("the sky is left out: {}", why.message), why.help);
-        }
-    }
-
-    void noteSky(const ImportedSky& sky, const MetaAsset* asset) {
-        const std::string what = asset         ? fmt::format("'{}' is no panorama", asset->path.filename().string())
-                                 : sky.picture ? fmt::format("no .meta has its uuid '{}'", sky.picture.uuid)
-                                               : "it has no picture";
-        problems_.note(sky.picture.where, fmt::format("the sky is left out: {}", what),
-                       asset || !sky.picture ? "skies are .hdr, .exr, .png, .jpg or .webp, twice as wide as high"
-                                             : "the engine's own skies are in its folder: --engine DIR");
+        facts_.exposure = exposureOf(ev);
     }
 
     void noteSkipped() {
@@ -356,12 +314,12 @@ private:
     std::vector<ImportedCamera> cameras_;
     std::map<std::string, std::size_t> skipped_;
     std::map<std::filesystem::path, std::unique_ptr<ObjectGraph>> prefabs_;
-    PrefabOverrides* changes_ = nullptr;  ///< Of the prefab that is walked.
-    std::vector<Place> path_;             ///< From the root to the node that is visited.
-    std::map<int, int> unshadowed_;       ///< Material → the same without CC_RECEIVE_SHADOW.
+    std::vector<Place> path_;                        ///< From the root to the node that is visited.
+    std::vector<std::filesystem::path> prefabPath_;  ///< The prefabs that node is inside of.
+    std::map<int, int> unshadowed_;                  ///< Material → the same without CC_RECEIVE_SHADOW.
     std::size_t visited_ = 0;
-    bool hdr_ = true, lights_ = false, showsSky_ = true, cascades_ = false;
-    double exposure_ = 1;
+    bool lights_ = false;
+    SceneFacts facts_;
 };
 
 }  // namespace

@@ -58,12 +58,58 @@ SceneModels::Model& SceneModels::load(const MetaAsset& asset, const AssetRef& re
         addTangentsFor(loaded.materials[std::size_t(instance.material)], loaded.meshes[std::size_t(instance.mesh)]);
     std::move(loaded.materials.begin(), loaded.materials.end(), std::back_inserter(scene_.materials));
     std::move(loaded.meshes.begin(), loaded.meshes.end(), std::back_inserter(scene_.meshes));
+    const MetaAsset* file = project_.metas().find(parentUuid(asset.uuid));
     for (Instance instance : loaded.instances) {
+        const int own = file ? extracted(*file, std::size_t(instance.material), ref) : -1;
         instance.mesh += model.meshBase;
-        instance.material += model.materialBase;
+        instance.material = own >= 0 ? own : instance.material + model.materialBase;
         model.instances.push_back(std::move(instance));
     }
     return model;
+}
+
+/// The .mtl that the editor made of a model's material ("extract materials"), or -1.
+int SceneModels::extracted(const MetaAsset& model, std::size_t material, const AssetRef& ref) {
+    const Value* finder = model.userData.isObject() ? model.userData.find("assetFinder") : nullptr;
+    const Value* list = finder && finder->isObject() ? finder->find("materials") : nullptr;
+    if (!list || !list->isArray() || material >= list->items().size()) return -1;
+    const Value& uuid = list->items()[material];
+    const MetaAsset* asset = uuid.isString() ? project_.metas().find(uuid.string()) : nullptr;
+    if (!asset || asset->path.extension() != ".mtl") return -1;
+    return materials_.add({.uuid = asset->uuid, .where = ref.where}, "a material of a model");
+}
+
+/// Instances of a node follow each other in the order of nodes; a mesh has as many parts wherever it is shown.
+bool SceneModels::findNodes(Model& model) const {
+    std::map<int, std::size_t> shown, drawn;
+    for (const auto& [node, mesh] : model.prefab->meshNodes) ++shown[mesh];
+    for (const Instance& instance : model.instances) ++drawn[instance.sourceMesh];
+    std::size_t next = 0;
+    for (const auto& [node, mesh] : model.prefab->meshNodes) {
+        if (drawn[mesh] % shown[mesh] != 0) return false;
+        for (std::size_t i = 0; i < drawn[mesh] / shown[mesh]; ++i, ++next) {
+            if (next >= model.instances.size() || model.instances[next].sourceMesh != mesh) return false;
+            model.nodes[node].push_back({model.instances[next].mesh, model.instances[next].material});
+        }
+    }
+    return next == model.instances.size();
+}
+
+const ObjectGraph* SceneModels::prefab(const MetaAsset& asset, const AssetRef& ref) {
+    Model& model = load(asset, ref);
+    if (!model.good) return nullptr;
+    if (!model.prefab) {
+        const MetaAsset* file = project_.metas().find(parentUuid(asset.uuid));
+        model.prefab = std::make_unique<GltfPrefab>(makeGltfPrefab(asset, file ? *file : asset, options_.limits));
+        if (!findNodes(model)) model.nodes.clear();
+    }
+    return model.nodes.empty() ? nullptr : &model.prefab->graph;
+}
+
+std::vector<ModelPart> SceneModels::partsOfNode(const MetaAsset& asset, int node, const AssetRef& ref) {
+    const Model& model = load(asset, ref);
+    const auto found = model.nodes.find(node);
+    return found == model.nodes.end() ? std::vector<ModelPart>{} : found->second;
 }
 
 std::vector<ModelPart> SceneModels::mesh(const AssetRef& ref, const std::string& what) {

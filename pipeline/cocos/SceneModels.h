@@ -2,9 +2,11 @@
 #pragma once
 
 #include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
+#include "cocos/GltfPrefab.h"
 #include "cocos/Project.h"
 #include "cocos/SceneMaterials.h"
 #include "scene/GltfLoader.h"
@@ -29,6 +31,11 @@ public:
     int material(const AssetRef& ref);
     /// Everything a glTF shows, below `world`.
     void placeModel(const MetaAsset& asset, const glm::mat4& world, const AssetRef& ref);
+    /// The model as a prefab, for instances that change more than its root; null after errors, and where its renderers
+    /// cannot be told apart.
+    const ObjectGraph* prefab(const MetaAsset& asset, const AssetRef& ref);
+    /// The parts that this node of a model shows.
+    std::vector<ModelPart> partsOfNode(const MetaAsset& asset, int node, const AssetRef& ref);
     static bool isModel(const MetaAsset& asset);
 
 private:
@@ -38,7 +45,11 @@ private:
         std::vector<Instance> instances{};
         std::size_t materialCount = 0;
         bool good = false;
+        std::unique_ptr<GltfPrefab> prefab{};
+        std::map<int, std::vector<ModelPart>> nodes{};
     };
+    bool findNodes(Model& model) const;
+    int extracted(const MetaAsset& model, std::size_t material, const AssetRef& ref);
     Model& load(const MetaAsset& asset, const AssetRef& ref);
 
     Project& project_;

@@ -5,6 +5,10 @@
 #include <cmath>
 #include <cstring>
 
+#include <fmt/format.h>
+
+#include "cocos/SkyFaces.h"
+#include "core/Error.h"
 #include "core/Image.h"
 #include "core/LimitedFiles.h"
 #include "core/Picture.h"
@@ -41,15 +45,50 @@ Image decoded(const Image& stored, bool rgbe) {
     return out;
 }
 
+/// Throws Error when the panorama of these faces would be too large.
+void checkFaceSize(std::uint64_t side, const std::string& name, const Limits& limits) {
+    checkPanoramaSize(4 * side, 2 * side, name, limits);
+}
+
+void checkSkySize(std::uint64_t width, std::uint64_t height, const std::string& name, const Limits& limits) {
+    if (const auto layout = faceLayout(width, height)) return checkFaceSize(width / layout->columns, name, limits);
+    checkPanoramaSize(width, height, name, limits);
+}
+
 /// Its size is judged by its header, before anything is decoded.
-Image readPanorama(const std::filesystem::path& path, const Limits& limits) {
+template <class CheckSize>
+Image readSkyPicture(const std::filesystem::path& path, const Limits& limits, CheckSize check) {
     const std::string name = path.filename().string();
     const std::vector<std::byte> bytes = readBytesWithin(path, limits.maxFileBytes);
     const auto header = readPictureHeader(bytes);
-    if (header) checkPanoramaSize(header->width, header->height, name, limits);
+    if (header) check(header->width, header->height, name, limits);
     Image image = header ? decodePicture(bytes, path.string(), limits) : readImage(path, limits);
-    checkPanoramaSize(image.width, image.height, name, limits);
+    check(image.width, image.height, name, limits);
     return image;
+}
+
+Image radianceOf(const Image& stored, const std::filesystem::path& path, bool rgbe) {
+    return isRadiance(endingOf(path)) ? stored : decoded(stored, rgbe);
+}
+
+Image readFaces(const MetaAsset& cube, const std::array<const MetaAsset*, 6>& assets, const Limits& limits) {
+    const auto checkSquare = [](std::uint64_t width, std::uint64_t height, const std::string& name,
+                                const Limits& most) {
+        if (width != height || width == 0)
+            throw Error(fmt::format("face '{}' of a sky has {} x {} pixels", name, width, height),
+                        "faces are squares of one size");
+        checkFaceSize(width, name, most);
+    };
+    std::array<Image, 6> faces;
+    for (std::size_t i = 0; i < faces.size(); ++i) {
+        const std::filesystem::path& path = assets[i]->path;
+        faces[i] = radianceOf(readSkyPicture(path, limits, checkSquare), path, isPackedRgbe(cube));
+        if (faces[i].width == faces[0].width) continue;
+        throw Error(fmt::format("face '{}' of a sky has {} pixels a side, the first {}", path.filename().string(),
+                                faces[i].width, faces[0].width),
+                    "faces are squares of one size");
+    }
+    return panoramaOfFaces(faces);
 }
 
 }  // namespace
@@ -59,10 +98,21 @@ bool isPanorama(const std::filesystem::path& path) {
     return std::find(std::begin(kEndings), std::end(kEndings), endingOf(path)) != std::end(kEndings);
 }
 
-Environment readSky(const MetaAsset& asset, const Log& log, const Limits& limits) {
+bool isSky(const MetaAsset& asset) { return isPanorama(asset.path) || asset.importer == "texture-cube"; }
+
+Environment readSky(const MetaAsset& asset, const MetaIndex& metas, const Log& log, const Limits& limits) {
+    const std::string name = asset.path.filename().string();
+    if (const auto faces = facesOf(asset, metas)) return makeEnvironment(readFaces(asset, *faces, limits), name, log);
+    if (!isPanorama(asset.path))
+        throw Error(fmt::format("'{}' names no faces", name), "its meta names six pictures: right, left, top, …");
+    const Image stored = readSkyPicture(asset.path, limits, checkSkySize);
+    if (const auto layout = faceLayout(stored.width, stored.height)) {
+        std::array<Image, 6> faces = cutFaces(stored, *layout);
+        for (Image& face : faces) face = radianceOf(face, asset.path, isPackedRgbe(asset));
+        return makeEnvironment(panoramaOfFaces(faces), name, log);
+    }
     if (isRadiance(endingOf(asset.path))) return loadEnvironment(asset.path, log, limits);
-    const Image stored = readPanorama(asset.path, limits);
-    return makeEnvironment(decoded(stored, isPackedRgbe(asset)), asset.path.filename().string(), log);
+    return makeEnvironment(decoded(stored, isPackedRgbe(asset)), name, log);
 }
 
 }  // namespace crevice::cocos

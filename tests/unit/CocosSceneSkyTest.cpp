@@ -94,22 +94,23 @@ TEST(CocosSceneSky, PicturesOfEightBitsAreHeldToTheLimits) {
     Limits limits;
     limits.maxImageSide = 8;
     limits.maxImagePixels = 32;
-    EXPECT_EQ(readSky(asset, quiet, limits).radiance.width, 8u);
+    EXPECT_EQ(readSky(asset, MetaIndex{}, quiet, limits).radiance.width, 8u);
     limits.maxImageSide = 7;
-    EXPECT_TRUE(contains(errorOf([&] { readSky(asset, quiet, limits); }), "--limit image-side="));
+    EXPECT_TRUE(contains(errorOf([&] { readSky(asset, MetaIndex{}, quiet, limits); }), "--limit image-side="));
     limits.maxImageSide = 8;
     limits.maxImagePixels = 31;
-    EXPECT_TRUE(contains(errorOf([&] { readSky(asset, quiet, limits); }), "--limit image-pixels="));
+    EXPECT_TRUE(contains(errorOf([&] { readSky(asset, MetaIndex{}, quiet, limits); }), "--limit image-pixels="));
     // As 16 bytes a pixel it may take an eighth, as .hdr and .exr may.
     limits = {};
     limits.maxImageBytes = 8 * 16 * 32;
-    EXPECT_EQ(readSky(asset, quiet, limits).radiance.width, 8u);
+    EXPECT_EQ(readSky(asset, MetaIndex{}, quiet, limits).radiance.width, 8u);
     limits.maxImageBytes -= 1;
-    EXPECT_TRUE(contains(errorOf([&] { readSky(asset, quiet, limits); }), "has 8 x 4 pixels, the limit is 31"));
-    EXPECT_TRUE(contains(errorOf([&] { readSky(asset, quiet, limits); }), "--limit image-bytes="));
+    EXPECT_TRUE(
+        contains(errorOf([&] { readSky(asset, MetaIndex{}, quiet, limits); }), "has 8 x 4 pixels, the limit is 31"));
+    EXPECT_TRUE(contains(errorOf([&] { readSky(asset, MetaIndex{}, quiet, limits); }), "--limit image-bytes="));
     limits = {};
     limits.maxFileBytes = 8;
-    const std::string tooLarge = errorOf([&] { readSky(asset, quiet, limits); });
+    const std::string tooLarge = errorOf([&] { readSky(asset, MetaIndex{}, quiet, limits); });
     EXPECT_TRUE(contains(tooLarge, "it is larger than the 8 bytes that are read")) << tooLarge;
     EXPECT_TRUE(contains(tooLarge, "--limit file-bytes=")) << tooLarge;
 }
@@ -161,7 +162,7 @@ TEST(CocosSceneSky, EachHalfHasItsOwnPictureAndStrength) {
 TEST(CocosSceneSky, WhatIsLeftOutIsSaid) {
     SkyFolder folder;
     EXPECT_FALSE(folder.sky(14, R"("_envmap": { "__uuid__": ")" + std::string(kModel) + "\" }").scene.environment);
-    EXPECT_TRUE(contains(folder.notes, "the sky is left out: 'm.gltf' is no panorama")) << folder.notes;
+    EXPECT_TRUE(contains(folder.notes, "the sky is left out: 'm.gltf' is no sky")) << folder.notes;
     folder.notes.clear();
     folder.sky(14, SkyFolder::picture("_envmap", "70ff50d1-0000-4000-8000-000000f1736b"));
     EXPECT_TRUE(contains(folder.notes, "the sky is left out: no .meta has its uuid '70ff50d1")) << folder.notes;
