@@ -115,7 +115,8 @@ bool pastesLines(const MacroDefinition& macro, const CallArguments& arguments) {
 
 void reportUnclosed(std::string_view macro, std::size_t limit, const SourceLoc& where, Problems& problems) {
     const std::string within = limit > 0 ? fmt::format(" within {} KB", limit >> 10) : std::string();
-    problems.error(where, fmt::format("the call of macro '{}' is not closed{}", macro, within), "a ')' is missing");
+    problems.error(where, fmt::format("the call of macro '{}' is not closed{}", macro, within),
+                   "add the ')' that is missing");
 }
 
 void reportArguments(const MacroDefinition& macro, std::size_t given, const SourceLoc& where, Problems& problems) {

@@ -188,6 +188,9 @@ std::unordered_set<std::string_view> MacroTable::findSplitting() const {
             if (expanded_.contains(name)) splitting.insert(name);
     for (const MacroDefinition* macro : all_)
         if (macro->bearsDirectives) splitting.insert(macro->name);
+    if (!splitting.empty())
+        for (const MacroDefinition* macro : all_)
+            if (pastes(*macro)) splitting.insert(macro->name);  // It may write the name of one.
     const auto leads = [&](const MacroDefinition& macro) {
         for (const auto& part : macro.body)
             for (std::size_t at = 0; (at = findCall(part.text, at)) != std::string_view::npos;) {

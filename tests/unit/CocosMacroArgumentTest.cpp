@@ -158,6 +158,26 @@ TEST(CocosMacroArgument, NestingAndOpenCallsEnd) {
     EXPECT_THAT(bench.problem().message, HasSubstr("is not closed"));
 }
 
+TEST(CocosMacroArgument, TheSemicolonBehindADirectiveIsSwallowedAndTheRestKept) {
+    CocosBench bench;
+    bench.fragment("#define SET(x) \\\n#if USE_A \\\nx = 1.0; \\\n#endif\nvoid f() { float a; SET(a); a += 2.0; }\n");
+    EXPECT_THAT(words(bench.fragmentText().flat.text),
+                testing::ElementsAre("#define SET SET", "void f() { float a;", "#if USE_A", "a = 1.0;", "#endif",
+                                     "a += 2.0; }"));
+}
+
+TEST(CocosMacroArgument, MacrosThatCallSuchMacrosAreExpandedToo) {
+    CocosBench bench;
+    bench.fragment(
+        "#define INNER(t, n) \\\n#if HIGHP \\\nt n##_low; \\\n#endif \\\n#pragma //\n#define MIDDLE(n) INNER(vec3, n)\n"
+        "#define OUTER(a, b) MIDDLE(a) MIDDLE(b)\n#define plain(x) (x)\nstruct S {\n  OUTER(first, second);\n"
+        "  float z;\n};\n");
+    EXPECT_THAT(words(bench.fragmentText().flat.text),
+                testing::ElementsAre("#define INNER INNER", "#define MIDDLE MIDDLE", "#define OUTER OUTER",
+                                     "#define plain(x) (x)", "struct S {", "#if HIGHP", "vec3 first_low;", "#endif",
+                                     "#if HIGHP", "vec3 second_low;", "#endif", "float z;", "};"));
+}
+
 TEST(CocosMacroArgument, AStatementEndsBehindTheLastBranch) {
     CocosBench bench;
     bench.fragment(

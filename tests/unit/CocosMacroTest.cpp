@@ -235,25 +235,6 @@ TEST(CocosMacro, BodiesWithPreprocessorLinesAreWrittenOut) {
     for (const char* define : {"USE_MORE", "USE_LESS", "USE_NONE"}) bench.compile({{define, "1"}});
 }
 
-TEST(CocosMacro, TheSemicolonBehindADirectiveIsSwallowedAndTheRestKept) {
-    CocosBench bench;
-    bench.fragment("#define SET(x) \\\n#if USE_A \\\nx = 1.0; \\\n#endif\nvoid f() { float a; SET(a); a += 2.0; }\n");
-    EXPECT_THAT(words(bench.fragmentText().flat.text), ElementsAre("#define SET SET", "void f() { float a;",
-                                                                   "#if USE_A", "a = 1.0;", "#endif", "a += 2.0; }"));
-}
-
-TEST(CocosMacro, MacrosThatCallSuchMacrosAreExpandedToo) {
-    CocosBench bench;
-    bench.fragment(
-        "#define INNER(t, n) \\\n#if HIGHP \\\nt n##_low; \\\n#endif \\\n#pragma //\n#define MIDDLE(n) INNER(vec3, n)\n"
-        "#define OUTER(a, b) MIDDLE(a) MIDDLE(b)\n#define plain(x) (x)\nstruct S {\n  OUTER(first, second);\n"
-        "  float z;\n};\n");
-    EXPECT_THAT(words(bench.fragmentText().flat.text),
-                ElementsAre("#define INNER INNER", "#define MIDDLE MIDDLE", "#define OUTER OUTER",
-                            "#define plain(x) (x)", "struct S {", "#if HIGHP", "vec3 first_low;", "#endif", "#if HIGHP",
-                            "vec3 second_low;", "#endif", "float z;", "};"));
-}
-
 TEST(CocosMacro, ArgumentsNestBracketsAndSpanLines) {
     CocosBench bench;
     bench.fragment(
