@@ -116,6 +116,7 @@ ImportedCamera readCamera(const Value& component, const glm::mat4& world, Proble
     }
     out.camera.fovY = float(fov);
     out.priority = fields.integer("_priority", 0);
+    out.visibility = std::uint32_t(fields.integer("_visibility", 0));
     const double aperture = stopOf(fields, "_aperture", 19, kApertures, problems);
     const double shutter = stopOf(fields, "_shutter", 7, kShutters, problems);
     const double iso = stopOf(fields, "_iso", 0, kIsos, problems);

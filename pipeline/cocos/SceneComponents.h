@@ -16,7 +16,8 @@ struct ImportedCamera {
     std::int64_t priority = 0;
     double ev = 0;  ///< Exposure value at ISO 100: log2(N² / t x 100 / ISO).
     std::optional<glm::vec4> clearColor{};
-    bool showsSky = false;  ///< It clears with the sky.
+    bool showsSky = false;         ///< It clears with the sky.
+    std::uint32_t visibility = 0;  ///< Bits of the layers that it sees; 0 = the file does not say.
 };
 
 /// The type of a component under its name of 3.x: earlier ones were "cc.CameraComponent", "cc.ModelComponent", …

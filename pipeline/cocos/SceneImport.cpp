@@ -17,6 +17,8 @@ namespace {
 
 constexpr DocumentLimits kSceneLimits{.maxBytes = 256u << 20, .maxDepth = 64, .maxNodes = 8'000'000};
 
+constexpr std::int64_t kDefaultLayer = std::int64_t(1) << 30;
+
 /// Bookkeeping of nodes that draws nothing.
 constexpr std::string_view kSilent[] = {"cc.UITransform", "cc.Widget", "cc.Animation", "cc.SkeletalAnimation"};
 
@@ -66,6 +68,12 @@ private:
     struct Place {
         const Value* node = nullptr;
         glm::mat4 world{1};
+        std::uint32_t layer = 0;
+    };
+
+    struct Prefab {
+        std::unique_ptr<ObjectGraph> graph{};
+        const Value* root = nullptr;  ///< Null for one that cannot be read.
     };
 
     const Value* rootNode(const ObjectGraph& graph) {
@@ -76,7 +84,7 @@ private:
         const Value* root = ref ? graph.resolve(*ref, fmt::format("'{}'", key), problems_) : nullptr;
         if (type != "cc.SceneAsset" && type != "cc.Prefab")
             throw Error(first.where(), fmt::format("this is no scene: its type is '{}'", type),
-                        "a .scene begins with an object of type 'cc.SceneAsset'");
+                        "a .scene begins with an object of type 'cc.SceneAsset', a .prefab with a 'cc.Prefab'");
         if (root) return root;
         problems_.throwIfErrors();
         throw Error(first.where(), fmt::format("'{}' of this '{}' is missing", key, type),
@@ -93,7 +101,7 @@ private:
         if (!fields.boolean("_active", true)) return;
         if (const Value* instance = prefabInstance(*in.graph, node)) return placePrefab(in, *instance, parent, depth);
         const glm::mat4 world = parent * readTransform(here, problems_);
-        path_.push_back({&node, world});
+        path_.push_back({&node, world, std::uint32_t(fields.integer("_layer", kDefaultLayer))});
         const std::string name = fields.text("_name", "node");
         for (const Value* component : in.graph->resolveList(fields.list("_components"), "'_components'", problems_))
             visit(in, *component, world, name);
@@ -174,6 +182,10 @@ private:
         const FieldReader fields(component, problems_);
         const AssetRef mesh = fields.asset("_mesh");
         if (!mesh) return;
+        if ((path_.back().layer & ~visibility_) != 0) {
+            ++skipped_["renderers on layers that the first camera does not see"];
+            return;
+        }
         const bool ofModel = in.model && mesh.uuid == in.model->uuid;
         const std::vector<ModelPart> parts =
             ofModel ? models_.partsOfNode(*in.model, int(fields.integer(kGltfNode, -1)), mesh)
@@ -201,6 +213,11 @@ private:
         }
         const AssetRef asset = readAssetRef(*ref);
         if (const int own = models_.material(asset); own >= 0) return own;
+        const MetaAsset* file = project_.metas().find(asset.uuid);
+        if (file && file->importer == "gltf-material" && !SceneModels::isModel(*file)) {
+            ++skipped_["materials of models that are not glTF"];
+            return materials_.addDefault();
+        }
         const int index = materials_.add(asset, fmt::format("the material of '{}'", name));
         return index >= 0 ? index : materials_.addDefault();
     }
@@ -277,10 +294,15 @@ private:
 
     void walkPrefab(const MetaAsset& asset, const std::string& rootId, Inside& inside, const glm::mat4& parent,
                     int depth) {
-        auto& prefab = prefabs_[asset.path];
-        if (!prefab) prefab = std::make_unique<ObjectGraph>(ObjectGraph::read(asset.path, kSceneLimits));
-        inside.graph = prefab.get();
-        walk(inside, *rootNode(*prefab), parent, depth + 1, rootId);
+        const auto [known, isNew] = prefabs_.try_emplace(asset.path);
+        Prefab& prefab = known->second;
+        if (isNew) {  // one that cannot be read is said once, not for each instance
+            prefab.graph = std::make_unique<ObjectGraph>(ObjectGraph::read(asset.path, kSceneLimits));
+            prefab.root = rootNode(*prefab.graph);
+        }
+        if (!prefab.root) return;
+        inside.graph = prefab.graph.get();
+        walk(inside, *prefab.root, parent, depth + 1, rootId);
     }
 
     void takeCameras() {
@@ -295,6 +317,7 @@ private:
             ev = cameras_.front().ev;
             out_.background = cameras_.front().clearColor;
             facts_.showsSky = cameras_.front().showsSky;
+            if (cameras_.front().visibility != 0) visibility_ = cameras_.front().visibility;  // 0: earlier than layers
         }
         out_.scene.exposureEv = float(ev);
         facts_.exposure = exposureOf(ev);
@@ -313,12 +336,13 @@ private:
     SceneModels models_;
     std::vector<ImportedCamera> cameras_;
     std::map<std::string, std::size_t> skipped_;
-    std::map<std::filesystem::path, std::unique_ptr<ObjectGraph>> prefabs_;
+    std::map<std::filesystem::path, Prefab> prefabs_;
     std::vector<Place> path_;                        ///< From the root to the node that is visited.
     std::vector<std::filesystem::path> prefabPath_;  ///< The prefabs that node is inside of.
     std::map<int, int> unshadowed_;                  ///< Material → the same without CC_RECEIVE_SHADOW.
     std::size_t visited_ = 0;
     bool lights_ = false;
+    std::uint32_t visibility_ = ~0u;  ///< Layers that the first camera sees.
     SceneFacts facts_;
 };
 

@@ -159,6 +159,7 @@ int SceneModels::material(const AssetRef& ref) {
 void SceneModels::placeModel(const MetaAsset& asset, const glm::mat4& world, const AssetRef& ref) {
     for (Instance instance : load(asset, ref).instances) {
         instance.world = world * instance.world;
+        instance.castsShadow = false;  // as the importer leaves its renderers
         instance.flipped = glm::determinant(glm::mat3(instance.world)) < 0;
         scene_.instances.push_back(std::move(instance));
     }

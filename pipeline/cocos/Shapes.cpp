@@ -78,6 +78,8 @@ std::string_view shapeName(std::string_view subId) {
                                   {"40ece", "torus"},  {"fc873", "quad"},    {"8abdc", "cylinder"}, {"a804a", "box"}};
     for (const Id& known : kIds) {
         if (known.id == subId) return known.name;
+        // Parts had names before they had numbers: "box.mesh".
+        if (subId.ends_with(".mesh") && subId.substr(0, subId.size() - 5) == known.name) return known.name;
     }
     return {};
 }

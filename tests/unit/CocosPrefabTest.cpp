@@ -149,6 +149,16 @@ TEST(CocosPrefab, OneThatIsAPartOfItselfIsAnError) {
     EXPECT_TRUE(contains(text, "outer.prefab' is a part of itself")) << text;
 }
 
+TEST(CocosPrefab, OneThatCannotBeReadIsSaidOnce) {
+    PrefabFolder folder;
+    folder.write("project/inner.prefab", R"([ { "__type__": "cc.Prefab", "data": { "__id__": 9 } } ])");
+    const std::string text =
+        folder.errors(scene(instance(kInner, "innerRoot", "a", "") + "," + instance(kInner, "innerRoot", "b", "")));
+    const auto first = text.find("'data' is object 9, but this file has 1");
+    ASSERT_NE(first, std::string::npos) << text;
+    EXPECT_EQ(text.find("'data' is object 9", first + 1), std::string::npos) << text;
+}
+
 // Of the editor's importer of glTF: 'm0', 'm0/a0', … are the paths, and the ids are theirs in its namespace, computed
 // with Python's uuid module.
 constexpr const char* kRootId = "a3e2Mtie5ea5wJXWJuRsS1";
@@ -168,6 +178,7 @@ TEST(CocosPrefab, InstancesOfModelsChangeWhatIsInThem) {
                                    change({kRootId}, "\"_lpos\"", place(0, 0, 1)) + "," +
                                        change({kSecondId}, "\"_lpos\"", place(0, 9, 0)) + "," +
                                        change({kSecondLookId}, R"("_materials", "0")", paint) + "," +
+                                       change({kSecondLookId}, R"("_shadowCastingMode")", "1") + "," +
                                        change({kFirstId}, "\"_lscale\"", place(2, 2, 2)),
                                    hung) +
                           "," + instance(model, kRootId, "y", change({kFirstId}, "\"_active\"", "false"))));
@@ -178,6 +189,8 @@ TEST(CocosPrefab, InstancesOfModelsChangeWhatIsInThem) {
     EXPECT_EQ(PrefabFolder::materialOf(out, 0), "m0");
     EXPECT_EQ(PrefabFolder::at(out, 1), glm::vec3(0, 9, 1));
     EXPECT_EQ(PrefabFolder::materialOf(out, 1), "paint");
+    EXPECT_FALSE(out.scene.instances[0].castsShadow);
+    EXPECT_TRUE(out.scene.instances[1].castsShadow);
     EXPECT_EQ(out.scene.instances[2].name, "sword");
     EXPECT_EQ(PrefabFolder::at(out, 2), glm::vec3(0, 9, 1));
     EXPECT_EQ(PrefabFolder::at(out, 3), glm::vec3(5, 0, 0));  // of the other instance, where the model has it
@@ -250,6 +263,39 @@ TEST(CocosScene, ComponentsMayHaveTheirNamesOfBefore) {
     ASSERT_EQ(light.scene.lights.size(), 1u);
     EXPECT_EQ(light.scene.lights[0].type, LightType::Point);
     EXPECT_EQ(folder.load(withComponent(R"({ "__type__": "cc.CameraComponent" })")).scene.cameras.size(), 1u);
+    const std::string box = renderer(std::string(kPrimitivesUuid) + "@box.mesh", "[]");
+    EXPECT_EQ(folder.load(withComponent(box)).scene.instances.size(), 1u);
+}
+
+TEST(CocosScene, LayersThatTheFirstCameraDoesNotSeeAreLeftOut) {
+    SceneFolder folder;
+    const auto drawn = [&](const std::string& visibility, const std::string& layer) {
+        folder.notes.clear();
+        return folder
+            .load(withComponent(
+                renderer(kSphere, "[]") + R"(, { "__type__": "cc.Camera")" + visibility + "}",
+                R"(, "_children": [ { "__type__": "cc.Node", "_components": [ { "__id__": 4 } ] } ])" + layer))
+            .scene.instances.size();
+    };
+    EXPECT_EQ(drawn("", R"(, "_layer": 8)"), 1u);
+    EXPECT_EQ(drawn(R"(, "_visibility": 24)", R"(, "_layer": 8)"), 1u);
+    EXPECT_EQ(drawn(R"(, "_visibility": 16)", R"(, "_layer": 8)"), 0u);
+    EXPECT_TRUE(contains(folder.notes, "left out: renderers on layers that the first camera does not see"))
+        << folder.notes;
+    EXPECT_EQ(drawn(R"(, "_visibility": 1822425087)", ""), 1u);         // the editor's number sees the usual layer
+    EXPECT_EQ(drawn(R"(, "_visibility": 0)", R"(, "_layer": 1)"), 1u);  // 1.x
+}
+
+TEST(CocosScene, MaterialsInsideOfOtherModelsAreLeftOut) {
+    SceneFolder folder;
+    folder.write("project/f.fbx", "");
+    folder.write("project/f.fbx.meta", R"({"importer":"fbx","uuid":")" + std::string(kInner) +
+                                           R"(","subMetas":{"eeeee":{"importer":"gltf-material","uuid":")" + kInner +
+                                           R"(@eeeee"}}})");
+    const ImportedScene out =
+        folder.load(withComponent(renderer(kSphere, R"([ { "__uuid__": ")" + std::string(kInner) + "@eeeee\" } ]")));
+    EXPECT_EQ(out.scene.instances.size(), 1u);
+    EXPECT_TRUE(contains(folder.notes, "left out: materials of models that are not glTF")) << folder.notes;
 }
 
 }  // namespace

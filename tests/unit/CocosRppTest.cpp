@@ -196,5 +196,18 @@ TEST(CocosRpp, DeepAndLargeFilesAreBounded) {
     EXPECT_TRUE(contains(errorsOf(many + "]}"), "more than 4096 flows and stages"));
 }
 
+TEST(CocosRpp, EarlyAssetsListDescriptionsAmongTheRenderTextures) {
+    const RppPipeline pipeline = read(R"([ { "__type__": "ForwardPipeline", "_flows": [], "renderTextures": [
+      { "__id__": 1 }, { "__id__": 2 } ] },
+      { "__type__": "RenderTextureDesc", "name": "mirror", "type": 1, "viewType": 1, "usage": 16, "format": 35, "width": -1, "height": 64 },
+      { "__type__": "RenderTextureConfig", "name": "screen", "texture": null } ])");
+    ASSERT_EQ(pipeline.textures.size(), 1u);
+    EXPECT_EQ(pipeline.textures[0].name, "mirror");
+    EXPECT_EQ(pipeline.textures[0].format, 35);
+    EXPECT_EQ(pipeline.textures[0].height, 64);
+    ASSERT_EQ(pipeline.renderTextures.size(), 1u);
+    EXPECT_EQ(pipeline.renderTextures[0].name, "screen");
+}
+
 }  // namespace
 }  // namespace crevice::cocos

@@ -182,7 +182,7 @@ TEST(CocosScene, APrefabOfAModelIsPlacedWhole) {
     EXPECT_TRUE(contains(folder.notes, "left out: changes inside of prefabs")) << folder.notes;
 }
 
-TEST(CocosScene, APrefabFileIsReadOneLevelDeep) {
+TEST(CocosScene, APrefabFileIsRead) {
     SceneFolder folder;
     const std::string uuid = "30ff50d1-0000-4000-8000-000000f1736b";
     folder.write("project/p.prefab.meta", SceneFolder::meta(uuid, "prefab"));
