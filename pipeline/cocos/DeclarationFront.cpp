@@ -51,23 +51,31 @@ private:
     std::size_t& budget_;
 };
 
+constexpr std::size_t kMostQualifiers = 256;  ///< Bytes; more than there are.
+
+/// The words of a line that are all qualifiers, each with a blank behind it. False when one is none.
+bool readQualifiers(std::string_view line, std::string& found) {
+    for (std::size_t at = 0; at < line.size();) {
+        const std::string_view word = leadingName(line.substr(at));
+        if (word.empty() ? line[at] != ' ' && line[at] != '\t' : !isQualifier(word)) return false;
+        if (!word.empty()) found.append(word).push_back(' ');
+        at += std::max<std::size_t>(1, word.size());
+    }
+    return true;
+}
+
 /// Behind the last statement above, qualifiers alone; else nothing.
 std::string qualifiersAbove(LinesAbove& lines) {
     std::string words;
     while (lines.next() && lines.kind == LineKind::Code) {
         const std::size_t ended = lines.line.find_last_of(";{}");
-        words.insert(0, std::string(lines.line.substr(ended == std::string_view::npos ? 0 : ended + 1)) + " ");
+        std::string more;
+        if (!readQualifiers(lines.line.substr(ended == std::string_view::npos ? 0 : ended + 1), more)) return {};
+        words.insert(0, more);
+        if (words.size() > kMostQualifiers) return {};
         if (ended != std::string_view::npos) break;
     }
-    std::string found;
-    for (std::size_t at = 0; at < words.size();) {
-        const std::string_view word = leadingName(std::string_view(words).substr(at));
-        if (word.empty() && words[at] != ' ' && words[at] != '\t') return {};
-        if (!word.empty() && !isQualifier(word)) return {};
-        if (!word.empty()) found.append(word).push_back(' ');
-        at += std::max<std::size_t>(1, word.size());
-    }
-    return found;
+    return words;
 }
 
 std::string wordsInFront(std::string_view text, std::size_t begin, std::size_t& budget) {

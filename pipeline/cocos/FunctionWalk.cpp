@@ -192,6 +192,7 @@ bool FunctionWalk::isHead() const {
     if (name.empty() || macros_.contains(name)) return false;
     const std::string_view type = nameBefore(text_, offsetOf(name));
     if (type.empty() || isStorage(type)) return false;
+    if (offsetOf(type) >= directiveEnd_) return true;
     const std::size_t line = text_.rfind('\n', offsetOf(type)) + 1;  // npos + 1 is 0.
     return readDirective(text_.substr(line, offsetOf(name) - line)).kind == LineKind::Code;
 }
