@@ -91,6 +91,15 @@ std::unordered_set<std::string_view> findFunctionMakers(const MacroBodies& defin
     return makers;
 }
 
+bool hasNever(std::string_view text) {
+    for (std::size_t at = text.find('#'); at != std::string_view::npos; at = text.find('#', at + 1)) {
+        const std::size_t end = std::min(text.find('\n', at), text.size());
+        const Directive line = readDirective(text.substr(at, end - at));
+        if (isConditional(line.kind) && (line.rest == "0" || line.rest == "1")) return true;
+    }
+    return false;
+}
+
 std::string withoutNever(std::string_view text) {
     struct Branch {
         bool decided = false, never = false;

@@ -23,6 +23,8 @@ void addDefinesOf(std::string_view text, MacroBodies& macros);
 /// Those of the #defines whose every body ends in a function's: a ';' behind their call ends nothing.
 std::unordered_set<std::string_view> findFunctionMakers(const MacroBodies& defines);
 
+/// A condition is the number 0 or 1.
+bool hasNever(std::string_view text);
 /// The text with blanks for what stands behind `#if 0`, and behind `#if 1` in the other branches.
 std::string withoutNever(std::string_view text);
 

@@ -147,6 +147,7 @@ private:
     }
 
     void readNever(std::string_view text, std::string_view compiled) {
+        if (text.data() == compiled.data()) return;
         for (std::size_t at = 0, end; at < text.size(); at = end + 1) {
             end = std::min(text.find('\n', at), text.size());
             const std::string_view line = text.substr(at, end - at);
@@ -245,7 +246,8 @@ void keepDead(std::string_view text, std::string_view compiled, std::string_view
 
 std::vector<FunctionRange> findDeadFunctions(std::string_view text, std::string_view entry, const MacroBodies& macros,
                                              const LiveHints& hints) {
-    const std::string compiled = withoutNever(text);
+    const std::string blanked = hasNever(text) ? withoutNever(text) : std::string();
+    const std::string_view compiled = blanked.empty() ? text : std::string_view(blanked);
     MacroBodies known;
     addDefinesOf(compiled, known);
     if (!keepBrackets(known)) return {};
