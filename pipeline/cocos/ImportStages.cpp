@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "cocos/MtlInstance.h"
+#include "cocos/TexturePicture.h"
 #include "cocos/TextureSampler.h"
 #include "core/Text.h"
 
@@ -240,10 +241,11 @@ void StageImporter::addMaterialOf(Value& out, const AssetRef& ref, const std::st
     if (!asset) return;
     const std::string effect = project_.effectName(file->path);
     const auto textures = [&](const AssetRef& texture, const EffectProperty& property) {
-        const MetaAsset* picture = project_.metas().find(texture.uuid);
-        if (picture && isPicture(picture->path)) {
-            const std::string words = samplerWords(samplerOf(*picture, project_.metas()));
-            return Value::makeString(picture->path.string() + words, texture.where);
+        const MetaAsset* named = project_.metas().find(texture.uuid);
+        const std::filesystem::path path = named ? pictureOf(*named, project_).path : std::filesystem::path();
+        if (isPicture(path)) {
+            const std::string words = samplerWords(samplerOf(*named, project_.metas()));
+            return Value::makeString(path.string() + words, texture.where);
         }
         problems_.note(texture.where,
                        fmt::format("texture '{}' of material '{}' is left out", property.name, mtl->name),

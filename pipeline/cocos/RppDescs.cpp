@@ -6,6 +6,15 @@
 #include <fmt/format.h>
 
 namespace crevice::cocos {
+namespace {
+
+/// Projects derive classes from RenderQueueDesc; such objects have its fields.
+bool isQueueOfScript(const Value& object, std::string_view key) {
+    const Value* phases = object.find("stages");
+    return key == "renderQueues" && phases && phases->isArray() && !typeOf(object).empty();
+}
+
+}  // namespace
 
 std::vector<const Value*> RppDescReader::objects(const Value& owner, std::string_view key,
                                                  std::initializer_list<std::string_view> types) const {
@@ -14,6 +23,10 @@ std::vector<const Value*> RppDescReader::objects(const Value& owner, std::string
     for (const Value* object : graph_.resolveList(list, fmt::format("'{}'", key), problems_)) {
         const std::string written = typeOf(*object);
         if (std::find(types.begin(), types.end(), written) != types.end()) {
+            found.push_back(object);
+        } else if (isQueueOfScript(*object, key)) {
+            problems_.note(object->where(),
+                           fmt::format("'{}' is a script: it is read as a '{}'", written, *types.begin()));
             found.push_back(object);
         } else {
             problems_.error(object->where(), fmt::format("an item of '{}' is of type '{}'", key, written),

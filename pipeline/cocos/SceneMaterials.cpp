@@ -5,6 +5,7 @@
 
 #include "cocos/StandardMaterial.h"
 #include "cocos/Tangents.h"
+#include "cocos/TexturePicture.h"
 #include "cocos/TextureSampler.h"
 
 namespace crevice::cocos {
@@ -106,12 +107,13 @@ Value SceneMaterials::useTexture(const AssetRef& texture, bool srgb) {
     if (!isNew) return known->second < 0 ? Value() : Value::makeInteger(known->second);
     const MetaAsset* asset = project_.find(texture, "a texture", problems_);
     if (!asset) return {};
-    SceneTexture out{.name = asset->path.filename().string(),
+    const MetaAsset& picture = pictureOf(*asset, project_);
+    SceneTexture out{.name = picture.path.filename().string(),
                      .image = {},
                      .srgb = srgb,
                      .sampler = samplerOf(*asset, project_.metas())};
     try {
-        out.image = readImage(asset->path);
+        out.image = readImage(picture.path);
         if (out.image.format != Format::RGBA8) out.image = toEightBit(out.image, PngMapping::Clamp);
     } catch (const Error& error) {
         problems_.warning(texture.where,

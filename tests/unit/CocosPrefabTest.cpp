@@ -4,6 +4,7 @@
 
 #include "cocos/NamedUuid.h"
 #include "cocos/Uuid.h"
+#include "core/Image.h"
 
 namespace crevice::cocos {
 namespace {
@@ -252,6 +253,32 @@ TEST(CocosNamedUuid, AreThoseOfTheStandards) {
     const std::string whole = "fc991dd7-0033-4b80-9d41-c8a86a702e59";
     EXPECT_EQ(normalizeUuid(compressUuid(whole)), whole);
     EXPECT_EQ(compressUuid(whole).size(), 22u);
+}
+
+TEST(CocosScene, TexturesInsideOfModelsAreThePicturesThatTheyName) {
+    SceneFolder folder;
+    const std::string picture = "33ff50d1-0000-4000-8000-000000f1736b";
+    Image red(2, 1, Format::RGBA8);
+    writeImage(folder.folder.path() / "project/red.png", red);
+    folder.write("project/red.png.meta", SceneFolder::meta(picture, "image"));
+    for (const std::string& named : {std::string("db://assets/red.png"), picture + "@6c48a"}) {
+        folder.write(
+            "project/m.gltf.meta",
+            R"({"importer":"gltf","uuid":")" + std::string(kModel) +
+                R"(","subMetas":{"e39f7":{"importer":"texture","uuid":")" + kModel +
+                R"(@e39f7","userData":{"wrapModeS":"clamp-to-edge","isUuid":false,"imageUuidOrDatabaseUri":")" + named +
+                "\"}}}}");
+        folder.write("project/paint.mtl",
+                     R"({ "__type__": "cc.Material", "_effectAsset": { "__uuid__": ")" + std::string(kStandard) +
+                         R"(" }, "_props": [ { "mainTexture": { "__uuid__": ")" + kModel + R"(@e39f7" } } ] })");
+        folder.notes.clear();
+        const ImportedScene out =
+            folder.load(withComponent(renderer(kSphere, R"([ { "__uuid__": ")" + std::string(kPaint) + "\" } ]")));
+        ASSERT_EQ(out.scene.textures.size(), 1u) << named << folder.notes;
+        EXPECT_EQ(out.scene.textures[0].name, "red.png");
+        EXPECT_EQ(out.scene.textures[0].image.width, 2u);
+        EXPECT_EQ(out.scene.textures[0].sampler.wrapU, TextureWrap::Clamp);
+    }
 }
 
 TEST(CocosScene, ComponentsMayHaveTheirNamesOfBefore) {

@@ -209,5 +209,18 @@ TEST(CocosRpp, EarlyAssetsListDescriptionsAmongTheRenderTextures) {
     EXPECT_EQ(pipeline.renderTextures[0].name, "screen");
 }
 
+TEST(CocosRpp, QueuesOfAScriptsClassAreQueues) {
+    Problems problems;
+    const RppPipeline pipeline = parseRpp(R"([ { "__type__": "DeferredPipeline", "_flows": [ { "__id__": 1 } ] },
+      { "__type__": "MainFlow", "_stages": [ { "__type__": "MirrorStage", "renderQueues": [ { "__id__": 2 } ] } ] },
+      { "__type__": "MirrorQueueDesc", "isTransparent": false, "sortMode": 1, "stages": [ "mirror" ] } ])",
+                                          "x.rpp", problems);
+    problems.throwIfErrors();
+    ASSERT_EQ(pipeline.flows.at(0).stages.at(0).queues.size(), 1u);
+    EXPECT_EQ(pipeline.flows[0].stages[0].queues[0].phases, std::vector<std::string>{"mirror"});
+    ASSERT_EQ(problems.all().size(), 1u);
+    EXPECT_TRUE(contains(problems.all()[0].message, "'MirrorQueueDesc' is a script"));
+}
+
 }  // namespace
 }  // namespace crevice::cocos
