@@ -2,34 +2,19 @@
 #include "cocos/GltfPrefab.h"
 
 #include <algorithm>
-#include <cstring>
 
 #include <fmt/format.h>
 #include <glm/gtc/quaternion.hpp>
 #include <glm/gtc/type_ptr.hpp>
 
+#include "cocos/GltfJson.h"
 #include "cocos/NamedUuid.h"
-#include "core/Files.h"
-#include "core/LimitedFiles.h"
 
 namespace crevice::cocos {
 namespace {
 
 constexpr std::string_view kSpace = "8fa06a75-f07a-44d4-82cf-d08c3c986599";  // of the editor's importer
 constexpr DocumentLimits kJsonLimits{.maxBytes = 256u << 20, .maxDepth = 64, .maxNodes = 8'000'000};
-
-/// The JSON of a .gltf, or the first chunk of a .glb.
-Value readGltfJson(const std::filesystem::path& path, const Limits& limits) {
-    const std::vector<std::byte> bytes = readBytesWithin(path, limits.maxFileBytes);
-    std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-    constexpr std::size_t kJsonAt = 20;  // after the container's header and the chunk's
-    if (text.starts_with("glTF") && text.size() > kJsonAt) {
-        std::uint32_t size = 0;
-        std::memcpy(&size, text.data() + 12, sizeof size);
-        text = text.substr(kJsonAt, size);
-    }
-    return parseJson(text, path.string(), kJsonLimits);
-}
 
 const Value* member(const Value* object, const char* key) {
     return object && object->isObject() ? object->find(key) : nullptr;
@@ -243,8 +228,8 @@ private:
 }  // namespace
 
 GltfPrefab makeGltfPrefab(const MetaAsset& asset, const MetaAsset& model, const Limits& limits) {
-    const Value json = readGltfJson(asset.path, limits);
-    return Builder(asset, model, json, limits).build();
+    const GltfJson file = readGltfJson(asset.path, limits);
+    return Builder(asset, model, file.json, limits).build();
 }
 
 }  // namespace crevice::cocos

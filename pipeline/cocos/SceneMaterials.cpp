@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "cocos/GltfJson.h"
 #include "cocos/StandardMaterial.h"
 #include "cocos/Tangents.h"
 #include "cocos/TexturePicture.h"
@@ -16,6 +17,13 @@ const TypedValue* textureOf(const Mtl& mtl, std::string_view name) {
         for (const MtlProperty& property : pass.properties)
             if (property.name == name && property.value.kind == TypedValue::Kind::Asset) return &property.value;
     return nullptr;
+}
+
+Image readPicture(const MetaAsset& picture) {
+    if (picture.importer != "gltf-embeded-image") return readImage(picture.path);  // the editor spells it so
+    const Value* index = picture.userData.isObject() ? picture.userData.find("gltfIndex") : nullptr;
+    const bool small = index && index->isInteger() && index->integer() >= 0 && index->integer() < 1'000'000;
+    return readEmbeddedPicture(picture.path, small ? int(index->integer()) : -1, {});
 }
 
 }  // namespace
@@ -113,7 +121,7 @@ Value SceneMaterials::useTexture(const AssetRef& texture, bool srgb) {
                      .srgb = srgb,
                      .sampler = samplerOf(*asset, project_.metas())};
     try {
-        out.image = readImage(picture.path);
+        out.image = readPicture(picture);
         if (out.image.format != Format::RGBA8) out.image = toEightBit(out.image, PngMapping::Clamp);
     } catch (const Error& error) {
         problems_.warning(texture.where,

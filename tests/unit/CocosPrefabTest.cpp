@@ -281,6 +281,49 @@ TEST(CocosScene, TexturesInsideOfModelsAreThePicturesThatTheyName) {
     }
 }
 
+TEST(CocosScene, PicturesInsideOfGlbAreRead) {
+    SceneFolder folder;
+    Image wide(3, 1, Format::RGBA8);
+    writeImage(folder.folder.path() / "three.png", wide);
+    std::string picture = readText(folder.folder.path() / "three.png"),
+                json = R"({"asset":{"version":"2.0"},"images":[{"bufferView":0}],
+        "bufferViews":[{"buffer":0,"byteOffset":4,"byteLength":)" +
+                       std::to_string(picture.size()) + R"(}],"buffers":[{"byteLength":)" +
+                       std::to_string(picture.size() + 4) + "}]}";
+    picture.insert(0, "skip");
+    const auto word = [](std::size_t value) {
+        std::string bytes;
+        for (int shift = 0; shift < 32; shift += 8) bytes += char(value >> shift & 255);
+        return bytes;
+    };
+    const auto chunk = [&](std::string data, const char* kind, char fill) {
+        while (data.size() % 4 != 0) data += fill;
+        return word(data.size()) + std::string(kind, 4) + data;
+    };
+    const std::string chunks = chunk(json, "JSON", ' ') + chunk(picture, "BIN\0", '\0');
+    folder.write("project/e.glb", "glTF" + word(2) + word(12 + chunks.size()) + chunks);
+    const std::string uuid = "34ff50d1-0000-4000-8000-000000f1736b";
+    const auto read = [&](int number) {
+        folder.write("project/e.glb.meta",
+                     R"({"importer":"gltf","uuid":")" + uuid + R"(","subMetas":{
+          "e39f7":{"importer":"texture","uuid":")" +
+                         uuid + R"(@e39f7","userData":{"isUuid":true,"imageUuidOrDatabaseUri":")" + uuid + R"(@1e1d0"}},
+          "1e1d0":{"importer":"gltf-embeded-image","uuid":")" +
+                         uuid + R"(@1e1d0","userData":{"gltfIndex":)" + std::to_string(number) + "}}}}");
+        folder.write("project/paint.mtl",
+                     R"({ "__type__": "cc.Material", "_effectAsset": { "__uuid__": ")" + std::string(kStandard) +
+                         R"(" }, "_props": [ { "mainTexture": { "__uuid__": ")" + uuid + R"(@e39f7" } } ] })");
+        folder.notes.clear();
+        return folder.load(withComponent(renderer(kSphere, R"([ { "__uuid__": ")" + std::string(kPaint) + "\" } ]")))
+            .scene;
+    };
+    const Scene good = read(0);
+    ASSERT_EQ(good.textures.size(), 1u) << folder.notes;
+    EXPECT_EQ(good.textures[0].image.width, 3u);
+    EXPECT_TRUE(read(1).textures.empty());
+    EXPECT_TRUE(contains(folder.notes, "picture 1 of 'e.glb' is not in its binary chunk")) << folder.notes;
+}
+
 TEST(CocosScene, ComponentsMayHaveTheirNamesOfBefore) {
     SceneFolder folder;
     const std::string model =
