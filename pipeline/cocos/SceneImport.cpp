@@ -93,7 +93,7 @@ private:
 
     /// `rootId`: of the root of a prefab, as its instance has it.
     void walk(const Inside& in, const Value& node, const glm::mat4& parent, int depth, const std::string& rootId = {}) {
-        if (!mayEnter(node, depth)) return;
+        if (!mayEnter(node, depth, in.scopes.size())) return;
         const std::string id = rootId.empty() ? prefabIdOf(*in.graph, node, "_prefab", problems_) : rootId;
         Value changed;
         const Value& here = withChanges(in.scopes, id, node, changed);
@@ -124,7 +124,8 @@ private:
         }
     }
 
-    bool mayEnter(const Value& node, int depth) {
+    /// `instances` of prefabs around a node cost as much as nodes do.
+    bool mayEnter(const Value& node, int depth, std::size_t instances) {
         if (depth > options_.limits.maxNodeDepth) {
             problems_.error(node.where(),
                             fmt::format("nodes nested deeper than {} levels", options_.limits.maxNodeDepth),
@@ -135,10 +136,12 @@ private:
             problems_.error(node.where(), "this node is one of its own children", "let '_children' name other nodes");
             return false;
         }
-        if (++visited_ == 2 * options_.limits.maxInstances + 1)
+        const std::size_t most = 2 * options_.limits.maxInstances, before = visited_;
+        visited_ += 1 + instances;
+        if (before <= most && visited_ > most)
             problems_.error(node.where(), fmt::format("more than {} nodes", options_.limits.maxInstances),
                             "split the scene");
-        return visited_ <= 2 * options_.limits.maxInstances;
+        return visited_ <= most;
     }
 
     void visit(const Inside& in, const Value& written, const glm::mat4& world, const std::string& name) {

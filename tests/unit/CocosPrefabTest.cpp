@@ -150,6 +150,18 @@ TEST(CocosPrefab, OneThatIsAPartOfItselfIsAnError) {
     EXPECT_TRUE(contains(text, "outer.prefab' is a part of itself")) << text;
 }
 
+TEST(CocosPrefab, TwoOfEachInsideOfEachOtherAreBounded) {
+    PrefabFolder folder;
+    const auto uuid = [](int i) { return fmt::format("35ff50d1-0000-4000-8000-0000000000{:02x}", i); };
+    for (int i = 0; i < 40; ++i) {
+        folder.write(fmt::format("project/p{}.prefab.meta", i), SceneFolder::meta(uuid(i), "prefab"));
+        const std::string next =
+            i < 39 ? instance(uuid(i + 1), "r", "a", "") + "," + instance(uuid(i + 1), "r", "b", "") : "";
+        folder.write(fmt::format("project/p{}.prefab", i), prefab("r", next));
+    }
+    EXPECT_TRUE(contains(folder.errors(scene(instance(uuid(0), "r", "s", ""))), "more than 1000000 nodes"));
+}
+
 TEST(CocosPrefab, OneThatCannotBeReadIsSaidOnce) {
     PrefabFolder folder;
     folder.write("project/inner.prefab", R"([ { "__type__": "cc.Prefab", "data": { "__id__": 9 } } ])");
