@@ -167,6 +167,12 @@ TEST_F(CommandsTest, EffectsCompileReadsCocosFolders) {
     const Outcome good = run("effects compile --engine engine --define UNKNOWN=1");
     EXPECT_EQ(good.code, 0) << good.err;
     EXPECT_TRUE(has(good.out, "1 compiled, 0 failed; 1 effect\n")) << good.out;
+    std::filesystem::create_directories(path(assets + "default_file_content/effect"));
+    write(
+        assets + "default_file_content/effect/new.effect",
+        "CCEffect %{\n  techniques:\n  - passes: [ { vert: vs, frag: vs } ]\n}%\nCCProgram vs %{ void main() {} }%\n");
+    const Outcome withTemplates = run("effects compile --engine engine");
+    EXPECT_TRUE(has(withTemplates.out, "2 compiled, 0 failed; 2 effects\n")) << withTemplates.out << withTemplates.err;
     const Outcome bad = run("effects compile engine/editor/assets/effects --engine engine --define USE_PLACE=1");
     EXPECT_EQ(bad.code, 1);
     EXPECT_TRUE(has(bad.out, "FAILED ")) << bad.out;

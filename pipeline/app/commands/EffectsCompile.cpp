@@ -222,14 +222,15 @@ void CompileRun::checkDefines() {
     }
 }
 
-/// Without a name: all effects of the project and the engine that are given; an engine has templates beside its own.
+/// Without a name: all effects of the project and the engine that are given, an engine's templates for new ones too.
 void chooseEffects(CompileOptions& options) {
     if (!options.effects.empty()) return;
     const cocos::Roots roots = cocosRoots(options.cocos, {});
     std::error_code error;
-    const std::filesystem::path engine = roots.engine.empty() ? roots.engine : roots.engineAssets() / "effects";
-    for (const std::filesystem::path& folder : {roots.projectAssets(), engine})
-        if (std::filesystem::is_directory(folder, error)) options.effects.push_back(folder.string());
+    if (std::filesystem::is_directory(roots.projectAssets(), error))
+        options.effects.push_back(roots.projectAssets().string());
+    if (!roots.engine.empty() && std::filesystem::is_directory(roots.engineAssets() / "effects", error))
+        options.effects.push_back(roots.engineAssets().string());
     if (options.effects.empty() && !roots.engine.empty())
         throw Error(fmt::format("--engine: '{}' holds no effects of an engine", options.cocos.engine),
                     "name the folder that holds editor/assets/effects");
