@@ -181,8 +181,9 @@ bool Flattener::expand(const MacroDefinition& macro, const std::vector<std::stri
     const std::uint32_t file = fileIndex(macro.source->file);
     const bool single = macro.body.size() == 1 && !macro.bearsDirectives;
     BodyLines lines;
-    for (const auto& part : macro.body) {
-        const std::string text = substitute(part.text, macro.parameters, arguments);
+    for (std::size_t i = 0; i < macro.body.size(); ++i) {
+        const auto& part = macro.body[i];
+        const std::string text = substitute(joinPasted(macro, i), macro.parameters, arguments);
         written_ += text.size();
         const Origin origin = single ? call : Origin{file, part.line};
         BodyLines parts = splitLines(text, origin);  // Several for an argument with conditions.

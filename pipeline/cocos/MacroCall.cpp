@@ -70,8 +70,9 @@ CallArguments readArguments(const CodeLines& lines, std::size_t line, std::size_
         return std::move(result);
     };
     for (; line < lines.size(); ++line, at = 0) {
-        const std::string_view text = lines.text(line);
-        if (const LineKind kind = at == 0 ? readDirective(text).kind : LineKind::Code; kind != LineKind::Code) {
+        const std::string_view text = withoutSplice(lines.text(line));
+        if (const LineKind kind = at == 0 ? readDirective(lines.text(line)).kind : LineKind::Code;
+            kind != LineKind::Code) {
             const bool opens = kind == LineKind::If || kind == LineKind::Ifdef || kind == LineKind::Ifndef;
             if (!reader.isOpen()) return end(opens ? State::Crossing : State::None);
             const std::string whole = joinContinued(lines, line);
@@ -131,6 +132,17 @@ std::string joinDirective(const SourceLines& lines, std::size_t first, std::size
         std::string_view part = lines.text(i);
         if (const auto last = part.rfind('\\'); i + 1 < end || part.ends_with('\\')) part = part.substr(0, last);
         joined.append(part).push_back(' ');
+    }
+    return joined;
+}
+
+std::string joinPasted(const MacroDefinition& macro, std::size_t& line) {
+    std::string joined(macro.body[line].text);
+    for (; line + 1 < macro.body.size(); ++line) {
+        const std::string_view next = trimBlank(macro.body[line + 1].text);
+        if (!trimBlank(joined).ends_with("##") && !next.starts_with("##")) break;
+        if (readDirective(next).kind != LineKind::Code) break;
+        joined.append(" ").append(next);
     }
     return joined;
 }

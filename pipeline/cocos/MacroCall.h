@@ -86,11 +86,10 @@ private:
     std::size_t bytes_ = 0;
 };
 
-/// A line of code without the backslash that joins it to the next, where it parts no word: the next may become a
-/// preprocessor line.
+/// A line of code without the backslash that joins it to the next: the next may become a preprocessor line. It parts no
+/// word (joinParted()).
 inline std::string_view withoutSplice(std::string_view code) {
-    if (!code.ends_with('\\') || (code.size() > 1 && isNamePart(code[code.size() - 2]))) return code;
-    return code.substr(0, code.size() - 1);
+    return code.ends_with('\\') ? code.substr(0, code.size() - 1) : code;
 }
 
 /// A preprocessor line with the lines that continue it, without their backslashes; `line` becomes the last of them.
@@ -111,6 +110,9 @@ void reportArguments(const MacroDefinition& macro, std::size_t given, const Sour
 
 /// A preprocessor line over several lines as one, without their backslashes.
 std::string joinDirective(const SourceLines& lines, std::size_t first, std::size_t end);
+
+/// A line of a body, with the next ones where a `##` at its end or at their begin pastes them; `line` becomes the last.
+std::string joinPasted(const MacroDefinition& macro, std::size_t& line);
 
 /// Parameters replaced by arguments, `##` pasted.
 std::string substitute(std::string_view body, const std::vector<std::string_view>& parameters,

@@ -36,6 +36,43 @@ SourceLoc placeInLine(const FlatSource& flat, int line, std::string_view word) {
     return flat.locate(line, static_cast<int>(at) + 1, static_cast<int>(length));
 }
 
+std::string_view namePartsAt(std::string_view text, std::size_t at) {
+    std::size_t end = at;
+    while (end < text.size() && isNamePart(text[end])) ++end;
+    return text.substr(at, end - at);
+}
+
+struct Words {
+    double total = 0, statement = 0;  ///< Of macros so far; of the present statement.
+};
+
+/// Of the branches of a condition the compiler sees one: the heaviest counts.
+class Alternatives {
+public:
+    void follow(LineKind kind, Words& now) {
+        const bool opens = kind == LineKind::If || kind == LineKind::Ifdef || kind == LineKind::Ifndef;
+        if (opens) open_.push_back({now, {}, false});
+        if (opens || !isConditional(kind) || open_.empty()) return;
+        Condition& last = open_.back();
+        last.heaviest = heavier(last.heaviest, now);
+        last.hasElse = last.hasElse || kind == LineKind::Else;
+        now = last.before;
+        if (kind != LineKind::Endif) return;
+        now = last.hasElse ? last.heaviest : heavier(last.heaviest, last.before);
+        open_.pop_back();
+    }
+
+private:
+    struct Condition {
+        Words before, heaviest;
+        bool hasElse = false;
+    };
+    static Words heavier(const Words& a, const Words& b) {
+        return {std::max(a.total, b.total), std::max(a.statement, b.statement)};
+    }
+    std::vector<Condition> open_;
+};
+
 }  // namespace
 
 /// Moves over a text word by word and knows the macros' calls.
@@ -174,42 +211,64 @@ int MacroWeights::firstTooHeavy(std::string_view text, std::string_view& macro) 
         return static_cast<int>(std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(at), '\n')) + 1;
     };
     const std::vector<std::string_view> none;
+    const auto isHeavy = [&](std::string_view name) {
+        return letters[static_cast<unsigned char>(name.front()) & 127u] && heavy.contains(name);
+    };
     Scanner scanner{*this, text, none};
-    double total = 0, statement = 0;
+    Words now;
+    double conditions = 0;
+    Alternatives alternatives;
+    // The compiler's preprocessor expands what conditions call as well.
+    const auto heavyWords = [&](std::string_view line, std::string_view& heaviest) {
+        double words = 0;
+        for (Scanner inner{*this, line, none}; inner.at < line.size();) {
+            const std::string_view name = namePartsAt(line, inner.at);
+            if (name.empty() || !isHeavy(name)) {
+                inner.at += std::max<std::size_t>(1, name.size());
+                continue;
+            }
+            words += inner.word().constant;
+            if (conditions + words + now.total > kMaxWords && heaviest.empty()) heaviest = name;
+        }
+        return words;
+    };
     bool lineStart = true;
     while (scanner.at < text.size()) {
         const char c = text[scanner.at];
         if (isNamePart(c)) {
-            std::size_t end = scanner.at + 1;
-            while (end < text.size() && isNamePart(text[end])) ++end;
+            const std::string_view name = namePartsAt(text, scanner.at);
             lineStart = false;
-            const std::string_view name = text.substr(scanner.at, end - scanner.at);
-            if (!letters[static_cast<unsigned char>(c) & 127u] || !heavy.contains(name)) {
-                scanner.at = end;
+            if (!isHeavy(name)) {
+                scanner.at += name.size();
                 continue;
             }
             const std::size_t begin = scanner.at;
             const double words = scanner.word().constant;
-            total += words;
-            statement += words;
-            if (total > kMaxWords) macro = name;
-            if (total > kMaxWords || statement > kMaxStatement) return lineOf(begin);
+            now.total += words;
+            now.statement += words;
+            if (now.total + conditions > kMaxWords) macro = name;
+            if (!macro.empty() || now.statement > kMaxStatement) return lineOf(begin);
             continue;
         }
-        if (lineStart && c == '#' && readDirective(text.substr(scanner.at, 64)).kind == LineKind::Define) {
-            // A definition, continued or not, is not expanded where it stands.
-            std::size_t end = text.find('\n', scanner.at);
-            while (end != std::string_view::npos && end > 0 && text[end - 1] == '\\') end = text.find('\n', end + 1);
-            scanner.at = std::min(end, text.size());
+        const LineKind kind = lineStart && c == '#' ? readDirective(text.substr(scanner.at, 64)).kind : LineKind::Code;
+        if (kind != LineKind::Code) {
+            // Continued or not: no word of it belongs to a statement, and no macro is expanded where it is defined.
+            alternatives.follow(kind, now);
+            std::size_t end = std::min(text.find('\n', scanner.at), text.size());
+            while (end < text.size() && text[end - 1] == '\\') end = std::min(text.find('\n', end + 1), text.size());
+            const std::string_view line = text.substr(scanner.at, end - scanner.at);
+            if (kind == LineKind::If || kind == LineKind::Elif) conditions += heavyWords(line, macro);
+            if (!macro.empty()) return lineOf(scanner.at);
+            scanner.at = end;
             continue;
         }
         if (c == ';' || c == '{' || c == '}')
-            statement = 0;
+            now.statement = 0;
         else if (c == ',')
-            statement += 1;
+            now.statement += 1;
         else if (isOperator(c))
-            statement += 2;
-        if (statement > kMaxStatement) return lineOf(scanner.at);
+            now.statement += 2;
+        if (now.statement > kMaxStatement) return lineOf(scanner.at);
         lineStart = c == '\n' || (lineStart && (c == ' ' || c == '\t'));
         ++scanner.at;
     }

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "cocos/Conditions.h"
+#include "cocos/Splices.h"
 
 namespace crevice::cocos {
 namespace {
@@ -142,7 +143,7 @@ private:
         if (line.kind == LineKind::Code) return 1;
         while (at + line.span < source_.lines.size() && endsWithBackslash(source_.lines[at + line.span - 1].text))
             ++line.span;
-        if (isConditional(line.kind)) readConditional(directive);
+        if (isConditional(line.kind)) readConditional(at, directive);
         line.conditional = isInCondition();
         if (line.kind == LineKind::Define) readMacro(at, directive.rest, false);
         if (line.kind == LineKind::Pragma && leadingName(directive.rest) == "define") {
@@ -159,7 +160,7 @@ private:
     }
 
     /// Follows what version 450 decides: branches that it never takes are dead.
-    void readConditional(const Directive& directive) {
+    void readConditional(std::size_t at, const Directive& directive) {
         if (directive.kind == LineKind::Endif) {
             if (!open_.empty()) open_.pop_back();
             return;
@@ -172,11 +173,18 @@ private:
         branch.isGuard = false;
         std::optional<bool> taken;
         if (directive.kind == LineKind::If || directive.kind == LineKind::Elif)
-            taken = decideByVersion(directive.rest);
+            taken = decideByVersion(readDirective(joinLines(at)).rest);
         else if (directive.kind == LineKind::Else)
             taken = true;
         branch.dead = branch.decided || taken == false;
         if (taken == true) branch.decided = true;
+    }
+
+    std::string joinLines(std::size_t at) const {
+        std::string joined;
+        for (std::size_t i = at; i < at + source_.lines[at].span; ++i)
+            joined.append(withoutBackslash(source_.lines[i].text)).push_back(' ');
+        return joined;
     }
 
     bool isInCondition() const {
@@ -337,7 +345,7 @@ std::unique_ptr<SourceText> readSource(std::string_view text, const std::string&
     source->shown = shown;
     source->file = file;
     source->folder = folder;
-    source->text = blankComments(text);
+    source->text = joinParted(blankComments(text));
     Reader(*source, firstLine).run();
     return source;
 }
