@@ -23,6 +23,13 @@ int gltfIndexOf(const MetaAsset& asset) {
     return small ? int(index->integer()) : -1;
 }
 
+/// `tangents` of a model's meta: 0 leaves them out, 1 takes what the file has, 2 and 3 make them; 2 without the word. A
+/// material of the scene may bring the normal map that asks for them.
+bool requiresTangents(const MetaAsset& model) {
+    const Value* setting = model.userData.isObject() ? model.userData.find("tangents") : nullptr;
+    return !setting || !setting->isInteger() || setting->integer() >= 2;
+}
+
 }  // namespace
 
 bool SceneModels::isModel(const MetaAsset& asset) {
@@ -54,11 +61,12 @@ SceneModels::Model& SceneModels::load(const MetaAsset& asset, const AssetRef& re
             shift(*texture, model.textureBase);
         materials_.translate(material);
     }
+    const MetaAsset* file = project_.metas().find(parentUuid(asset.uuid));
     for (const Instance& instance : loaded.instances)
-        addTangentsFor(loaded.materials[std::size_t(instance.material)], loaded.meshes[std::size_t(instance.mesh)]);
+        addTangentsFor(loaded.materials[std::size_t(instance.material)], loaded.meshes[std::size_t(instance.mesh)],
+                       !file || requiresTangents(*file));
     std::move(loaded.materials.begin(), loaded.materials.end(), std::back_inserter(scene_.materials));
     std::move(loaded.meshes.begin(), loaded.meshes.end(), std::back_inserter(scene_.meshes));
-    const MetaAsset* file = project_.metas().find(parentUuid(asset.uuid));
     for (Instance instance : loaded.instances) {
         const int own = file ? extracted(*file, std::size_t(instance.material), ref) : -1;
         instance.mesh += model.meshBase;

@@ -41,8 +41,8 @@ void addTangents(Mesh& mesh) {
     mesh.hasTangents = true;
 }
 
-void addTangentsFor(const SceneMaterial& material, Mesh& mesh) {
-    if (mesh.hasTangents || !material.normalMap) return;
+void addTangentsFor(const SceneMaterial& material, Mesh& mesh, bool required) {
+    if (mesh.hasTangents || (!material.normalMap && !required)) return;
     for (const TextureRef* map : {&material.baseColorMap, &material.metallicRoughnessMap, &material.normalMap,
                                   &material.occlusionMap, &material.emissiveMap})
         if (*map && map->texcoord > 1) return;

@@ -10,8 +10,8 @@ namespace crevice::cocos {
 /// such a direction gets any tangent.
 void addTangents(Mesh& mesh);
 
-/// The same if the material has a normal map and the mesh no tangents, unless sets 2 and 3 of its texture coordinates
-/// lie in their place (TextureRef).
-void addTangentsFor(const SceneMaterial& material, Mesh& mesh);
+/// The same if the mesh has no tangents and the material a normal map, or if tangents are `required` whatever draws it;
+/// not where sets 2 and 3 of texture coordinates lie in their place (TextureRef).
+void addTangentsFor(const SceneMaterial& material, Mesh& mesh, bool required = false);
 
 }  // namespace crevice::cocos

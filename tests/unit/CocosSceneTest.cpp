@@ -164,6 +164,19 @@ TEST(CocosScene, MeshesOfModelsAreFoundByTheirNumber) {
     EXPECT_EQ(other.scene.materials.at(std::size_t(other.scene.instances.at(0).material)).name, "m1");
 }
 
+TEST(CocosScene, ModelsGetTangentsAsTheirMetaSays) {
+    // The editor's words: 0 and 1 add none; 2, the default, and 3 do. A material of the scene may need them.
+    for (const auto& [setting, expected] : {std::pair("", true), std::pair(R"("userData":{"tangents":1},)", false),
+                                            std::pair(R"("userData":{"tangents":2},)", true)}) {
+        SceneFolder folder;
+        const std::filesystem::path meta = folder.folder.path() / "project/m.gltf.meta";
+        folder.write("project/m.gltf.meta", "{" + std::string(setting) + readText(meta).substr(1));
+        const ImportedScene out = folder.load(withComponent(renderer(std::string(kModel) + "@bbbbb", "[ null ]")));
+        ASSERT_EQ(out.scene.instances.size(), 1u);
+        EXPECT_EQ(out.scene.meshes.at(std::size_t(out.scene.instances[0].mesh)).hasTangents, expected) << setting;
+    }
+}
+
 TEST(CocosScene, APrefabOfAModelIsPlacedWhole) {
     SceneFolder folder;
     const ImportedScene out = folder.load(R"([ { "__type__": "cc.SceneAsset", "scene": { "__id__": 1 } },
