@@ -74,7 +74,10 @@ void MacroTable::visit(const SourceText& root, const Resolve& resolve, std::size
 void MacroTable::chooseExpanded() {
     for (const MacroDefinition* macro : all_)
         if (macro->bearsDirectives || macro->declares) expand(macro->name);
-    for (const SourceText* source : sources_) carryAll(source->splitCalls);
+    for (const SourceText* source : sources_) {
+        carryAll(source->splitCalls);
+        carryAll(source->declaringCalls);
+    }
     if (expanded_.empty()) return;
     for (const MacroDefinition* macro : all_)
         if (pastes(*macro)) expand(macro->name);  // It may write the name of one.

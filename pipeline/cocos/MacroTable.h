@@ -15,7 +15,7 @@ namespace crevice::cocos {
 
 /// All macros of the texts that a program includes, wherever they stand: `#pragma define` holds for the whole stage.
 /// Expanded are those whose body bears preprocessor lines or interface declarations, those that call such a one, and
-/// those between whose brackets preprocessor lines stand or come to stand.
+/// those between whose brackets preprocessor lines or interface words stand or come to stand.
 class MacroTable {
 public:
     /// What an #include in `from` means; null = nothing, somebody else reports it.
@@ -66,7 +66,7 @@ private:
     std::unordered_set<const SourceText*> conditional_;  ///< Included in conditions.
     std::vector<std::string_view> hoisted_;
     std::vector<std::string_view> unfollowed_;       ///< Expanded names whose callers are to be expanded too.
-    std::unordered_set<std::string_view> carrying_;  ///< Between whose brackets preprocessor lines come to stand.
+    std::unordered_set<std::string_view> carrying_;  ///< Between whose brackets such come to stand.
     std::array<bool, 128> firstLetters_{};           ///< Of the expanded names: most words are passed over by one look.
 };
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "cocos/ArgumentDeclarations.h"
 #include "cocos/Conditions.h"
 #include "cocos/Splices.h"
 
@@ -71,11 +72,6 @@ std::string blankComments(std::string_view text) {
 bool isDirectiveText(std::string_view text) {
     text = trimBlank(text);
     return text.starts_with('#') && !text.starts_with("##") && readDirective(text).kind != LineKind::Code;
-}
-
-bool isInterfaceWord(std::string_view word) {
-    return word == "in" || word == "out" || word == "uniform" || word == "buffer" || word == "attribute" ||
-           word == "varying";
 }
 
 /// An interface word outside of all brackets.
@@ -288,6 +284,11 @@ bool isCodeLine(const SourceText& source, std::size_t at) {
     return source.lines[at].kind == LineKind::Code && (at == 0 || !endsWithBackslash(source.lines[at - 1].text));
 }
 
+bool isInterfaceWord(std::string_view word) {
+    return word == "in" || word == "out" || word == "uniform" || word == "buffer" || word == "attribute" ||
+           word == "varying";
+}
+
 bool isConditional(LineKind kind) { return kind >= LineKind::If && kind <= LineKind::Endif; }
 
 std::string_view trimBlank(std::string_view text) {
@@ -347,6 +348,7 @@ std::unique_ptr<SourceText> readSource(std::string_view text, const std::string&
     source->folder = folder;
     source->text = joinParted(blankComments(text));
     Reader(*source, firstLine).run();
+    source->declaringCalls = callsWithDeclarations(*source);
     return source;
 }
 

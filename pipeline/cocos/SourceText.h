@@ -74,7 +74,8 @@ struct SourceText {
     std::string text;
     std::vector<SourceLine> lines;  ///< Without blank ones.
     std::vector<MacroDefinition> macros;
-    std::unordered_set<std::string_view> splitCalls;  ///< Names in front of brackets that a condition stands in.
+    std::unordered_set<std::string_view> splitCalls;      ///< Names in front of brackets that a condition stands in.
+    std::unordered_set<std::string_view> declaringCalls;  ///< callsWithDeclarations()
 
     SourceText() = default;
     SourceText(const SourceText&) = delete;
@@ -105,6 +106,9 @@ bool isCodeLine(const SourceText& source, std::size_t at);
 
 /// `#define NAME(parameters) body` in one line.
 std::string defineLine(const MacroDefinition& macro);
+
+/// in, out, uniform, buffer, attribute, varying.
+bool isInterfaceWord(std::string_view word);
 
 /// Stands in front of a macro's name that is not expanded any more, while its line is put together.
 constexpr char kFinal = '\1';
