@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <set>
 
-#include "core/Text.h"
+#include "effect/EffectFiles.h"
 #include "effect/EffectFrontEnd.h"
 #include "effect/Includes.h"
 #include "effect/RecentStages.h"
@@ -19,8 +19,6 @@
 namespace crevice {
 namespace {
 
-namespace fs = std::filesystem;
-
 constexpr std::size_t kMaxEffectBytes = 16u << 20;
 constexpr std::size_t kMostTold = 10'000;  ///< Messages that are remembered.
 
@@ -32,7 +30,7 @@ struct EffectLibrary::State {
     SpirvCache disk;
     std::shared_ptr<ShaderCompiler> compiler;
     RecentStages recent;
-    std::vector<std::unique_ptr<EffectFrontEnd>> frontEnds;
+    FrontEnds frontEnds;
     std::map<std::string, std::unique_ptr<EffectAsset>> assets;  ///< By path.
     std::map<const EffectAsset*, EffectFrontEnd*> readers;       ///< Of the assets that are not in our own dialect.
     std::map<std::string, const EffectAsset*> named;             ///< As the present roots find them.
@@ -44,16 +42,8 @@ struct EffectLibrary::State {
     Counters counters;
     std::set<std::string> told;  ///< What was written to the log: a pipeline that loads again says it no more.
 
-    void tell(const Problems& said);
+    void tell(const std::vector<Problem>& said);
     const EffectAsset& asset(const std::string& effect, const SourceLoc& where);
-    /// A file and who reads it; null = we do.
-    struct Found {
-        fs::path path;
-        EffectFrontEnd* reader = nullptr;
-    };
-    Found find(const std::string& effect, const SourceLoc& where) const;
-    fs::path findFile(const std::string& effect, const SourceLoc& where) const;
-    std::vector<std::string> names() const;
     EffectFrontEnd* readerOf(const EffectAsset& asset) const;
     const EffectPass& passOf(const EffectAsset& asset, const VariantRequest& request) const;
     IncludeSources sourcesOf(const EffectAsset& asset) const { return {asset, roots, chunks}; }
@@ -71,72 +61,23 @@ struct EffectLibrary::State {
                               CompiledPass compiled);
 };
 
-EffectLibrary::State::Found EffectLibrary::State::find(const std::string& effect, const SourceLoc& where) const {
-    const bool isPath = effect.ends_with(".effect");
-    std::error_code error;
-    std::string asked = effect;
-    if (isPath && fs::path(effect).is_relative() && !where.file.empty()) {
-        const fs::path beside = fs::path(where.file).parent_path() / effect;
-        if (fs::is_regular_file(beside, error)) asked = beside.string();
-    }
-    for (const auto& frontEnd : frontEnds)
-        if (auto path = frontEnd->find(asked)) return {std::move(*path), frontEnd.get()};
-    if (!isPath && !roots.find(AssetKind::Effect, effect))
-        for (const auto& frontEnd : frontEnds)
-            if (auto path = frontEnd->findShort(effect)) return {std::move(*path), frontEnd.get()};
-    return {findFile(effect, where), nullptr};
-}
-
-std::vector<std::string> EffectLibrary::State::names() const {
-    std::vector<std::string> all = roots.list(AssetKind::Effect);
-    for (const auto& frontEnd : frontEnds) {
-        const auto more = frontEnd->names();
-        all.insert(all.end(), more.begin(), more.end());
-    }
-    std::sort(all.begin(), all.end());
-    all.erase(std::unique(all.begin(), all.end()), all.end());
-    return all;
-}
-
 EffectFrontEnd* EffectLibrary::State::readerOf(const EffectAsset& asset) const {
     const auto it = readers.find(&asset);
     return it == readers.end() ? nullptr : it->second;
 }
 
-void EffectLibrary::State::tell(const Problems& said) {
+void EffectLibrary::State::tell(const std::vector<Problem>& said) {
     Problems fresh;
-    for (const Problem& problem : said.all()) {
+    for (const Problem& problem : said) {
         const bool isNew = told.size() >= kMostTold || told.insert(formatProblem(problem)).second;
         if (isNew) fresh.add(Error(std::vector<Problem>{problem}));
     }
     log.write(fresh);
 }
 
-/// A name below effects/, or a path that ends with .effect: relative to the document that asks, else to the current
-/// folder.
-fs::path EffectLibrary::State::findFile(const std::string& effect, const SourceLoc& where) const {
-    if (effect.ends_with(".effect")) {
-        fs::path path = effect;
-        std::error_code error;
-        const bool fromDocument = !where.file.empty() && fs::is_regular_file(where.file, error);
-        if (fromDocument && path.is_relative()) {
-            const fs::path beside = fs::path(where.file).parent_path() / path;
-            if (fs::is_regular_file(beside, error)) path = beside;
-        }
-        if (fromDocument && !roots.contains(path))
-            throw Error(where, fmt::format("effect '{}' lies outside of the asset folders", effect),
-                        "name an effect below effects/");
-        if (!fs::is_regular_file(path, error))
-            throw Error(where, fmt::format("no effect file '{}'", effect), "check the spelling of the path");
-        return path;
-    }
-    if (const auto path = roots.find(AssetKind::Effect, effect)) return *path;
-    throw Error(where, fmt::format("no effect '{}'", effect), didYouMean(effect, names(), "effects"));
-}
-
 const EffectAsset& EffectLibrary::State::asset(const std::string& effect, const SourceLoc& where) {
     if (const auto it = named.find(effect); it != named.end()) return *it->second;
-    const auto [path, reader] = find(effect, where);
+    const auto [path, reader] = findEffect(roots, frontEnds, effect, where);
     if (const auto it = assets.find(path.string()); it != assets.end()) return *(named[effect] = it->second.get());
     Problems problems;
     const std::string name = effect.ends_with(".effect") ? path.stem().string() : effect;
@@ -144,7 +85,7 @@ const EffectAsset& EffectLibrary::State::asset(const std::string& effect, const 
         reader != nullptr ? reader->parse(path, name, problems)
                           : parseEffect(readText(path, kMaxEffectBytes), name, path.string(), problems));
     problems.throwIfErrors();
-    tell(problems);
+    tell(problems.all());
     if (reader != nullptr) readers[parsed.get()] = reader;
     return *(named[effect] = assets.emplace(path.string(), std::move(parsed)).first->second.get());
 }
@@ -217,6 +158,7 @@ CompiledPass EffectLibrary::State::compiledFor(const std::string& key, const std
     auto kept = disk.load(key);
     if (kept && (kept->checked || !check)) {
         ++counters.fromDisk;
+        tell(kept->remarks);
         return std::move(*kept);
     }
     Problems problems;
@@ -232,7 +174,8 @@ CompiledPass EffectLibrary::State::compiledFor(const std::string& key, const std
     Problems remarks;
     compiled.info = joinStages(facts, remarks);
     remarks.throwIfErrors();
-    tell(remarks);
+    compiled.remarks = remarks.all();
+    tell(compiled.remarks);
     ++counters.compiled;
     disk.store(key, compiled);
     return compiled;
@@ -274,16 +217,15 @@ const EffectVariant& EffectLibrary::State::make(const VariantRequest& request, c
     const std::string asked = askKey(effect, request, bindings);
     if (const auto answer = asked.empty() ? std::nullopt : disk.loadAnswer(asked)) {
         if (auto kept = disk.load(answer->content); kept && (kept->checked || !request.checkOnly)) {
-            Problems said;
-            if (!answer->problems.empty()) said.add(Error(answer->problems));
-            tell(said);
+            tell(answer->problems);
+            tell(kept->remarks);
             ++counters.fromDisk;
             return keep(effect, request, placeOf(answer->content), std::move(*kept));
         }
     }
     Problems said;
     const std::vector<StageSource> sources = stagesOf(effect, pass, request, bindings, said);
-    tell(said);
+    tell(said.all());
     const std::string key = contentKey(sources, bindings);
     if (const auto it = byContent.find(placeOf(key)); it != byContent.end()) {
         ++counters.fromMemory;
@@ -321,7 +263,7 @@ void EffectLibrary::addFrontEnd(std::unique_ptr<EffectFrontEnd> frontEnd) {
     ++state_->generation;
 }
 
-std::vector<std::string> EffectLibrary::names() const { return state_->names(); }
+std::vector<std::string> EffectLibrary::names() const { return effectNames(state_->roots, state_->frontEnds); }
 
 const EffectAsset& EffectLibrary::asset(const std::string& effect, const SourceLoc& where) {
     return state_->asset(effect, where);

@@ -114,6 +114,7 @@ void compiledPass(Io& io, Pass& pass) {
     for (auto& size : pass.info.localSize) io(size);
     io(pass.checked);
     problemList(io, pass.info.refusals);
+    problemList(io, pass.remarks);
 }
 
 }  // namespace

@@ -14,7 +14,8 @@ namespace crevice {
 struct CompiledPass {
     std::vector<StageCode> code;
     ShaderInfo info;
-    bool checked = false;  ///< By SPIRV-Tools, without complaint.
+    bool checked = false;            ///< By SPIRV-Tools, without complaint.
+    std::vector<Problem> remarks{};  ///< Said when the stages were joined; to be said again whenever this is used.
 };
 
 std::string toBytes(const CompiledPass& pass);

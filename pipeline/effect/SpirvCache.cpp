@@ -6,7 +6,7 @@
 namespace crevice {
 namespace {
 
-constexpr std::string_view kMagic = "CREVICE SPIRV 5\n";
+constexpr std::string_view kMagic = "CREVICE SPIRV 6\n";
 constexpr std::size_t kHashLength = 32;
 constexpr std::size_t kMaxBytes = 64u << 20;
 

@@ -104,6 +104,37 @@ TEST_F(CocosCache, NotesAreSaidOnceByALibrary) {
     EXPECT_EQ(notes.size(), 2u) << "that is another note";
 }
 
+TEST_F(CocosCache, WhatIsSaidWhenStagesAreJoinedIsSaidEachTime) {
+    project_.write("assets/narrow.effect",
+                   "CCEffect %{\n  techniques:\n  - passes: [ { vert: vs:vert, frag: fs:frag } ]\n}%\n"
+                   "CCProgram vs %{\n  out vec4 v_p;\n  vec4 vert () { v_p = vec4(1.0); return v_p; }\n}%\n"
+                   "CCProgram fs %{\n  in vec3 v_p;\n  vec4 frag () { return vec4(v_p, 1.0); }\n}%\n");
+    // How often a fresh library says so, and what it counted.
+    const auto said = [&](EffectLibrary::Counters& counters) {
+        int notes = 0;
+        const Log log(LogLevel::Note, [&](LogLevel, std::string_view message) {
+            if (message.find("'v_p' is a vec3") != std::string_view::npos) ++notes;
+        });
+        EffectLibrary library(AssetRoots({}), log);
+        library.addFrontEnd(std::make_unique<CocosEffects>(roots()));
+        VariantRequest request;
+        request.effect = "narrow";
+        library.get(request, {});
+        counters = library.counters();
+        return notes;
+    };
+    EffectLibrary::Counters counters;
+    EXPECT_EQ(said(counters), 1);
+    EXPECT_EQ(counters.compiled, 1u);
+    EXPECT_EQ(said(counters), 1) << "answered by request";
+    EXPECT_EQ(counters.fromDisk, 1u);
+    writePlace("2.0");  // which this effect does not include
+    EXPECT_EQ(said(counters), 1) << "answered by content";
+    EXPECT_EQ(counters.fromDisk, 1u);
+    EXPECT_EQ(said(counters), 1) << "answered by request again";
+    EXPECT_EQ(counters.compiled, 0u);
+}
+
 TEST_F(CocosCache, AChangedChunkIsSeen) {
     ask();
     writePlace("2.0");
