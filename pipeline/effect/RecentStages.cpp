@@ -59,10 +59,25 @@ private:
     std::array<std::uint64_t, 256> lengths_{};  ///< Of names, by their first character.
 };
 
+/// A name, or `##`, that goes on behind the end of a line: words as read() finds them would be parts of it.
+bool isSplicedWithin(std::string_view text) {
+    const auto mayGoOn = [](char c) { return isNamePart(c) || c == '#' || c == '\\'; };
+    for (auto at = text.find('\\'); at != std::string_view::npos; at = text.find('\\', at + 1)) {
+        std::size_t next = at + 1;
+        if (next < text.size() && text[next] == '\r') ++next;
+        if (next + 1 >= text.size() || text[next] != '\n') continue;
+        if (at > 0 && mayGoOn(text[at - 1]) && mayGoOn(text[next + 1])) return true;
+    }
+    return false;
+}
+
 /// The head without definitions of what nothing in the stage names: they are the other stage's, and with other values
-/// of them this one stays what it is. All of it where the text puts names together.
+/// of them this one stays what it is. All of it where the text puts names together, or
+/// breaks them.
 std::string usedHead(const StageSource& source) {
-    if (source.text.find("##") != std::string::npos || source.head.find('\\') != std::string::npos) return source.head;
+    if (source.text.find("##") != std::string::npos || source.head.find('\\') != std::string::npos ||
+        isSplicedWithin(source.text))
+        return source.head;
     std::vector<std::string_view> lines;
     for (std::string_view rest = source.head; !rest.empty(); rest.remove_prefix(lines.back().size()))
         lines.push_back(rest.substr(0, std::min(rest.find('\n'), rest.size() - 1) + 1));

@@ -67,6 +67,23 @@ TEST(RecentStages, NamesThatAreOnlyPutTogetherCountAsNamed) {
     EXPECT_NE(one.code.words, two.code.words);
 }
 
+TEST(RecentStages, NamesThatAreBrokenOverLinesCountAsNamed) {
+    for (const char* name : {"FAC\\\nTOR", "FAC\\\r\nTOR", "F\\\nACTO\\\nR", "FAC\\\n\\\nTOR"}) {
+        Bench bench;
+        const std::string text = kOut + "void main() { color = vec4(" + name + "); }\n";
+        EXPECT_FALSE(bench.share(fragment("#define FACTOR 1\n", text), fragment("#define FACTOR 2\n", text))) << name;
+    }
+    Bench bench;
+    const std::string text = kOut + "#define JOIN(a, b) a#\\\n#b\nvoid main() { color = vec4(JOIN(FAC, TOR)); }\n";
+    EXPECT_FALSE(bench.share(fragment("#define FACTOR 1\n", text), fragment("#define FACTOR 2\n", text)));
+}
+
+TEST(RecentStages, BodiesOverSeveralLinesBreakNoName) {
+    Bench bench;
+    const std::string text = kOut + "#define ONE \\\n  vec4(1.0)\nvoid main() { color = ONE; }\n";
+    EXPECT_TRUE(bench.share(fragment("#define USE_BONES 0\n", text), fragment("#define USE_BONES 1\n", text)));
+}
+
 TEST(RecentStages, ANameWithinANameIsAnother) {
     Bench bench;
     const std::string text = kOut + "#define FACTOR_X 1\nvoid main() { color = vec4(FACTOR_X); }\n";
