@@ -136,6 +136,23 @@ TEST_F(CommandsTest, EffectsCompileTakesMacros) {
     EXPECT_TRUE(has(run("effects compile copy --text").out, "#version 450"));
 }
 
+TEST_F(CommandsTest, EffectsCompileVariesNoMacroThatAPassEmbeds) {
+    std::filesystem::create_directories(path("game/assets"));
+    write("game/package.json", "{}");
+    write("game/assets/e.effect",
+          "CCEffect %{\n  techniques:\n  - passes:\n    - { vert: 'vs:vert', frag: 'fs:frag' }\n"
+          "    - { vert: 'vs:vert', frag: 'fs:frag', embeddedMacros: { NUM: 2 } }\n}%\n"
+          "CCProgram vs %{\n  vec4 vert() { return vec4(1.0); }\n}%\n"
+          "CCProgram fs %{\n  #pragma define-meta NUM range([0, 3])\n  vec4 frag() {\n    #if NUM == 2\n"
+          "    return vec4(2.0);\n    #endif\n    #if ON\n    return vec4(1.0);\n    #endif\n"
+          "    return vec4(0.0);\n  }\n}%\n");
+    const Outcome outcome = run("effects compile game --all-variants");
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    // NUM's two ends times ON's two values in pass 0, ON's two alone in pass 1.
+    EXPECT_TRUE(has(outcome.out, "6 compiled, 0 failed")) << outcome.out;
+    EXPECT_TRUE(has(outcome.out, "NUM=3")) << outcome.out;
+}
+
 TEST_F(CommandsTest, EffectsCompileFindsTheCocosProjectAboveAPath) {
     std::filesystem::create_directories(path("game/assets/chunks"));
     std::filesystem::create_directories(path("game/assets/effects"));

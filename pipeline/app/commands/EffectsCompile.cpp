@@ -143,8 +143,10 @@ void CompileRun::compilePass(const std::string& name, const EffectPass& pass, st
     std::vector<Defines> variants{given_};
     if (cocos_ == nullptr || options_.allVariants) {
         try {
-            const std::vector<DefineInfo> infos = library_.discoverDefines(name, technique, index);
+            std::vector<DefineInfo> infos = library_.discoverDefines(name, technique, index);
             const Defines fixed = definesFor(infos);
+            // What a pass sets itself has one value.
+            std::erase_if(infos, [&](const DefineInfo& info) { return pass.embeddedMacros.contains(info.name); });
             variants = options_.allVariants ? variantsOf(request, infos, fixed) : std::vector<Defines>{fixed};
         } catch (const Error& error) {
             progress_.clear();
