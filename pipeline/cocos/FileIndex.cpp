@@ -27,24 +27,19 @@ FileIndex::FileIndex(const std::vector<fs::path>& folders, const std::string& en
     std::size_t seen = 0;
     for (std::size_t folder = 0; folder < folders.size(); ++folder) {
         const std::size_t first = entries_.size();
-        std::error_code error;
-        fs::recursive_directory_iterator it(folders[folder], fs::directory_options::skip_permission_denied, error);
-        for (; !error && it != fs::recursive_directory_iterator(); it.increment(error)) {
-            if (++seen > kMaxFiles)
-                throw Error(
-                    fmt::format("the folder '{}' holds more than {} files", folders[folder].string(), kMaxFiles),
-                    "name a project or engine folder, not one above it");
-            const std::string& path = it->path().native();
-            const std::string_view file = baseOf(path);
-            if (it.depth() > 60) it.disable_recursion_pending();
-            if ((file == "node_modules" || file == ".git") && it->is_directory(error)) it.disable_recursion_pending();
-            if (!file.ends_with(ending) || !it->is_regular_file(error)) continue;
+        const auto keep = [&](const fs::directory_entry& file) {
+            const std::string& path = file.path().native();
+            std::error_code error;
+            if (!baseOf(path).ends_with(ending) || !file.is_regular_file(error)) return;
             // The walk writes the folder's own name in front of every path.
             std::string_view name = std::string_view(path).substr(folders[folder].native().size());
             while (name.starts_with('/')) name.remove_prefix(1);
             name.remove_suffix(ending.size());
-            entries_.push_back({std::string(name), it->path(), folder});
-        }
+            entries_.push_back({std::string(name), file.path(), folder});
+        };
+        if (walkFiles(folders[folder], seen, keep) == WalkEnd::TooMany)
+            throw Error(fmt::format("the folder '{}' holds more than {} files", folders[folder].string(), kMaxFiles),
+                        "name a project or engine folder, not one above it");
         std::sort(entries_.begin() + static_cast<std::ptrdiff_t>(first), entries_.end(),
                   [](const Entry& a, const Entry& b) { return a.name < b.name; });
     }
@@ -70,7 +65,11 @@ std::vector<const FileIndex::Entry*> FileIndex::endingWith(std::string_view name
         if (entry.folder < folder) found.clear();
         if (entry.folder > folder) continue;
         folder = entry.folder;
-        const auto same = [&](const Entry* other) { return other->path == entry.path; };
+        // Links may give one file several names.
+        const auto same = [&](const Entry* other) {
+            std::error_code error;
+            return other->path == entry.path || fs::equivalent(other->path, entry.path, error);
+        };
         if (std::none_of(found.begin(), found.end(), same)) found.push_back(&entry);
     }
     return found;

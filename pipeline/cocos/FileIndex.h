@@ -8,14 +8,16 @@
 #include <string_view>
 #include <vector>
 
+#include "cocos/FolderWalk.h"
 #include "cocos/Roots.h"
 
 namespace crevice::cocos {
 
-/// Files of one ending. Folders are walked once, links to folders are not followed; at most kMaxFiles entries are seen.
+/// Files of one ending, behind links too (see FolderWalk.h). Folders are walked once; at most kMaxFiles entries are
+/// seen.
 class FileIndex {
 public:
-    static constexpr std::size_t kMaxFiles = 500'000;
+    static constexpr std::size_t kMaxFiles = kMaxWalkedEntries;
 
     /// Names are paths below a folder without the ending; the first folder that has a name wins. Throws Error when the
     /// folders hold more than kMaxFiles entries.
@@ -29,7 +31,7 @@ public:
     const std::vector<Entry>& entries() const { return entries_; }
 
     const Entry* find(std::string_view name) const;
-    /// Entries whose name is `name` or ends with "/NAME", those of the first folder that has any.
+    /// Entries whose name is `name` or ends with "/NAME", those of the first folder that has any, each file once.
     std::vector<const Entry*> endingWith(std::string_view name) const;
     std::vector<std::string> names() const;
 

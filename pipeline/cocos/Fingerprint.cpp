@@ -5,11 +5,12 @@
 
 #include <algorithm>
 #include <chrono>
+#include <string_view>
 #include <vector>
 
 #include <fmt/format.h>
 
-#include "cocos/FileIndex.h"
+#include "cocos/FolderWalk.h"
 #include "core/Files.h"
 
 namespace crevice::cocos {
@@ -48,18 +49,19 @@ std::string fingerprintOf(const Roots& roots) {
     for (const fs::path& folder : roots.assetFolders()) folders.push_back(folder);
     std::vector<std::string> files;
     std::size_t entries = 0;
-    std::error_code error;
     try {
         for (const fs::path& folder : folders) {
-            for (auto it = fs::recursive_directory_iterator(folder, error);
-                 !error && it != fs::recursive_directory_iterator(); it.increment(error)) {
-                if (++entries > FileIndex::kMaxFiles) return {};
-                const fs::path extension = it->path().extension();
-                if ((extension == ".effect" || extension == ".chunk") && it->is_regular_file(error))
-                    files.push_back(describe(it->path(), error));
-                if (error) return {};
-            }
-            if (error) return {};
+            std::error_code failed;
+            const auto add = [&](const fs::directory_entry& file) {
+                std::error_code dangling;
+                const std::string_view path = file.path().native();
+                if ((!path.ends_with(".effect") && !path.ends_with(".chunk")) || !file.is_regular_file(dangling))
+                    return;
+                std::error_code error;
+                files.push_back(describe(file.path(), error));
+                if (error) failed = error;
+            };
+            if (walkFiles(folder, entries, add) != WalkEnd::Complete || failed) return {};
             files.push_back("folder " + folder.string() + "\n");
         }
     } catch (const Error&) {

@@ -3,10 +3,12 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <set>
 
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
+#include "cocos/FolderWalk.h"
 #include "cocos/Project.h"
 #include "core/Error.h"
 #include "core/Files.h"
@@ -15,8 +17,6 @@ namespace crevice {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr std::size_t kMaxEntries = 500'000;
 
 fs::path existingFolder(const char* option, const std::string& path) {
     std::error_code error;
@@ -34,16 +34,20 @@ bool liesIn(const fs::path& path, const fs::path& folder) {
 std::vector<std::string> effectsBelow(const fs::path& folder) {
     std::vector<std::string> found;
     std::size_t entries = 0;
-    constexpr auto kOptions = fs::directory_options::skip_permission_denied;
-    for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder, kOptions)) {
-        if (++entries > kMaxEntries)
-            throw Error(fmt::format("'{}' holds more than {} files", folder.string(), kMaxEntries),
-                        "name a smaller folder");
+    const auto keep = [&](const fs::directory_entry& file) {
         std::error_code error;
-        if (entry.path().extension() == ".effect" && entry.is_regular_file(error))
-            found.push_back(entry.path().string());
-    }
+        if (file.path().extension() == ".effect" && file.is_regular_file(error)) found.push_back(file.path().string());
+    };
+    if (cocos::walkFiles(folder, entries, keep) == cocos::WalkEnd::TooMany)
+        throw Error(fmt::format("'{}' holds more than {} files", folder.string(), cocos::kMaxWalkedEntries),
+                    "name a smaller folder");
     std::sort(found.begin(), found.end());
+    // Links may give one file several names.
+    std::set<fs::path> real;
+    std::erase_if(found, [&](const std::string& path) {
+        std::error_code error;
+        return !real.insert(fs::weakly_canonical(path, error)).second;
+    });
     if (found.empty())
         throw Error(fmt::format("no .effect file below '{}'", folder.string()),
                     "name a folder that holds .effect files, or one of them");
