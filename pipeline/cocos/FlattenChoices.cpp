@@ -43,11 +43,13 @@ void Flattener::writeEach(std::string_view name, Origin origin,
     const auto choices = choices_.possible(name, places_);
     const bool sure = choices_.isSure(name, places_);
     const MacroDefinition* const latest = latest_[name];
+    if (!choices_.isAnyTaken()) alternatives_ = 0;
     choices_.take(name);
     const std::size_t included = included_.size();
     std::vector<const SourceText*> ofCopies;
     for (std::size_t i = 0; i < choices.size() + (sure ? 0 : 1) && !stopped_; ++i) {
         const bool defined = i < choices.size();
+        ++alternatives_;
         latest_[name] = defined ? choices[i].macro : nullptr;
         const SourceText& source = *choices[defined ? i : 0].macro->source;
         emitDirective(

@@ -10,8 +10,9 @@
 namespace crevice::cocos {
 namespace {
 
-constexpr std::size_t kMaxRefused = 8u << 20;  ///< Bytes of calls that are none, of a stage.
-constexpr std::size_t kMaxBranchDepth = 16;    ///< Conditions that cross a call, each in a copy of the one before.
+constexpr std::size_t kMaxRefused = 8u << 20;    ///< Bytes of calls that are none, of a stage.
+constexpr std::size_t kManyAlternatives = 1000;  ///< Of one call: then they are why the stage is full.
+constexpr std::size_t kMaxBranchDepth = 16;      ///< Conditions that cross a call, each in a copy of the one before.
 
 }  // namespace
 
@@ -217,12 +218,20 @@ bool Flattener::writeLines(const BodyLines& lines, Pending& pending, const Sourc
 void Flattener::stopExpanding(const MacroDefinition& macro) {
     if (stopped_) return;
     stopped_ = true;
-    const bool deep = active_.size() >= limits_.maxDepth || argumentDepth_ >= limits_.maxDepth;
-    if (!deep && expansions_ - before_.expansions <= limits_.maxExpansions / 2 &&
+    const std::string_view name = active_.empty() ? std::string_view(macro.name) : active_.front();
+    if (argumentDepth_ >= limits_.maxDepth || active_.size() >= limits_.maxDepth)
+        return problems_.error(
+            callPlace_, fmt::format("the call of macro '{}' nests macros deeper than {}", name, limits_.maxDepth),
+            "split it: a part of it can be a variable, or a macro of fewer levels");
+    if (choices_.isAnyTaken() && alternatives_ > kManyAlternatives)
+        return problems_.error(callPlace_,
+                               fmt::format("macro '{}' stands for too many alternatives to write them all out", name),
+                               "conditions choose between definitions of the macros that it calls, and their numbers "
+                               "multiply: let one macro's body hold the conditions");
+    if (expansions_ - before_.expansions <= limits_.maxExpansions / 2 &&
         written_ - before_.written <= limits_.maxBytes / 2)  // It only came last.
         return problems_.error(callPlace_, "the macros of this stage write more than it can hold",
                                "call fewer, or fewer in one line: several definitions multiply the line");
-    const std::string_view name = active_.empty() ? std::string_view(macro.name) : active_.front();
     problems_.error(callPlace_, fmt::format("macro '{}' expands without end", name),
                     "macros multiply each other: write out what is meant");
 }

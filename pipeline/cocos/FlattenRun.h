@@ -162,6 +162,7 @@ private:
     SourceLoc callPlace_;                   ///< Of that call.
     std::size_t includes_ = 0, expansions_ = 0, written_ = 0, looked_ = 0, argumentDepth_ = 0;
     std::size_t branchDepth_ = 0;
+    std::size_t alternatives_ = 0;  ///< That the outermost call with a chosen definition has led to so far.
     std::size_t refused_ = 0;  ///< Bytes of calls that turned out to be none.
     struct {
         std::size_t expansions = 0, written = 0;

@@ -42,6 +42,7 @@ public:
     }
     bool contains(std::string_view name) const { return choices_.contains(name); }
     bool isTaken(std::string_view name) const { return std::find(taken_.begin(), taken_.end(), name) != taken_.end(); }
+    bool isAnyTaken() const { return !taken_.empty(); }
     bool isEmpty() const { return choices_.empty(); }
     /// All definitions above.
     std::vector<Option> of(std::string_view name) const {

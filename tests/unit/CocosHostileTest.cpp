@@ -187,7 +187,7 @@ TEST(CocosHostile, NamesOfNamesOfMacrosAreFollowedOnce) {
                "void main() { color = vec4(1.0); }\n";
     };
     bench.fragment(chain(60'000));
-    EXPECT_THAT(bench.problem().message, HasSubstr("expands without end"));
+    EXPECT_THAT(bench.problem().message, HasSubstr("nests macros deeper than 64"));
     bench.fragment(chain(30));
     EXPECT_EQ(bench.compileError(), "");
 }

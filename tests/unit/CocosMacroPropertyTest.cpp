@@ -42,7 +42,11 @@ std::string tokensOf(const std::string& text) {
 /// What glslang says of a macro's name without brackets at the end of a line in front of a preprocessor line, and what
 /// the flattener says of programs that become too large.
 constexpr const char* kRefused[] = {"preprocessor directive cannot be preceded by another token",
-                                    "write more than it can hold", "expands without end", "is not closed within"};
+                                    "write more than it can hold",
+                                    "expands without end",
+                                    "is not closed within",
+                                    "too many alternatives",
+                                    "nests macros deeper than"};
 
 std::string headOf(unsigned variant) {
     std::string head;

@@ -43,18 +43,32 @@ TEST(CocosWeight, OfAlternativesTheHeaviestCounts) {
     EXPECT_EQ(firstLongLine(sum + "#else\n#endif\n#elif\n" + sum + "+ 1"), 6);  // What nothing opens decides nothing.
 }
 
-TEST(CocosWeight, ChosenMacrosThatCallChosenMacros) {
-    CocosBench bench;  // 256 alternatives in one statement, of which a variant holds one.
+/// A macro P1 that is chosen, and P2 … Pcount that are and call the one before.
+std::string chosenChain(int count) {
     std::string text = "#if USE_1\n#define P1(x) (x + 1.0)\n#else\n#define P1(x) (x * 1.0)\n#endif\n";
-    for (int i = 2; i <= 8; ++i) {
+    for (int i = 2; i <= count; ++i) {
         const std::string n = std::to_string(i), m = std::to_string(i - 1);
         text += "#if USE_" + n + "\n#define P" + n + "(x) P" + m + "(x + 2.0)\n#else\n#define P" + n + "(x) P" + m +
                 "(x * 2.0)\n#endif\n";
     }
-    text += kColor + "void main() { color = vec4(P8(\n#if USE_Q\n1.0\n#else\n2.0\n#endif\n)); }\n";
-    bench.fragment(text);
+    return text + kColor + "void main() { color = vec4(P" + std::to_string(count) +
+           "(\n#if USE_Q\n1.0\n#else\n2.0\n#endif\n)); }\n";
+}
+
+TEST(CocosWeight, ChosenMacrosThatCallChosenMacros) {
+    CocosBench bench;  // 1024 alternatives in one statement, of which a variant holds one.
+    bench.fragment(chosenChain(10));
     EXPECT_EQ(bench.problem().message, "");
     bench.compile({{"USE_1", "1"}, {"USE_8", "1"}, {"USE_Q", "1"}});
+}
+
+TEST(CocosWeight, TooManyAlternativesAreNoRecursion) {
+    CocosBench bench;
+    for (const int count : {14, 16, 20}) {
+        bench.fragment(chosenChain(count));
+        EXPECT_THAT(bench.problem().message, HasSubstr("too many alternatives"));
+        EXPECT_EQ(bench.problem().where.line, 10 + 5 * count + 2);
+    }
 }
 
 }  // namespace
