@@ -8,15 +8,15 @@
 #include <optional>
 #include <unordered_set>
 
-#include "cocos/BlockRules.h"
-#include "cocos/ChunkLibrary.h"
-#include "cocos/EntryCheck.h"
-#include "cocos/Fingerprint.h"
-#include "cocos/Flattener.h"
-#include "cocos/Numbering.h"
-#include "cocos/SourceText.h"
-#include "cocos/StageAnalysis.h"
-#include "cocos/TakeOver.h"
+#include "cocos/analysis/EntryCheck.h"
+#include "cocos/analysis/StageAnalysis.h"
+#include "cocos/files/Fingerprint.h"
+#include "cocos/files/TakeOver.h"
+#include "cocos/flatten/Flattener.h"
+#include "cocos/interface/BlockRules.h"
+#include "cocos/interface/Numbering.h"
+#include "cocos/text/ChunkLibrary.h"
+#include "cocos/text/SourceText.h"
 #include "core/Files.h"
 #include "effect/VariantBuilder.h"
 

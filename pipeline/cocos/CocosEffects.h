@@ -5,8 +5,8 @@
 #include <memory>
 #include <vector>
 
-#include "cocos/Roots.h"
-#include "cocos/StageText.h"
+#include "cocos/files/Roots.h"
+#include "cocos/text/StageText.h"
 #include "effect/EffectFrontEnd.h"
 
 namespace crevice::cocos {

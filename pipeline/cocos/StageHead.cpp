@@ -5,8 +5,8 @@
 #include <charconv>
 
 #include "cocos/CocosEffects.h"
-#include "cocos/EngineMacros.h"
-#include "cocos/StageAnalysis.h"
+#include "cocos/analysis/StageAnalysis.h"
+#include "cocos/text/EngineMacros.h"
 
 namespace crevice::cocos {
 namespace {

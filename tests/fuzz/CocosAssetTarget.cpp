@@ -1,9 +1,9 @@
 // Fuzzes the other files of a Cocos project: the input's first line says which kind it is (mtl, meta, rpp, scene), the
 // rest is the file, in a project that has an effect, a material and a model to refer to.
 #include "FuzzTargets.h"
-#include "cocos/Import.h"
-#include "cocos/MtlInstance.h"
-#include "cocos/SceneImport.h"
+#include "cocos/assets/MtlInstance.h"
+#include "cocos/import/Import.h"
+#include "cocos/scene/SceneImport.h"
 #include "core/Files.h"
 #include "core/Image.h"
 #include "effect/EffectAsset.h"

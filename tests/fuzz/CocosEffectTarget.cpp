@@ -2,7 +2,7 @@
 // pass. Behind a mark the input is the text of a chunk that the effect may include as <fuzz>.
 #include "FuzzTargets.h"
 #include "cocos/CocosEffects.h"
-#include "cocos/EffectReflection.h"
+#include "cocos/reflection/EffectReflection.h"
 
 namespace crevice::fuzz {
 namespace {

@@ -6,7 +6,7 @@
 #include <regex>
 
 #include "cocos/CocosEffects.h"
-#include "cocos/Import.h"
+#include "cocos/import/Import.h"
 
 namespace crevice {
 

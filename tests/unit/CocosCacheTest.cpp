@@ -6,7 +6,7 @@
 
 #include "EffectTestTools.h"
 #include "cocos/CocosEffects.h"
-#include "cocos/Fingerprint.h"
+#include "cocos/files/Fingerprint.h"
 
 namespace crevice::cocos {
 namespace {

@@ -6,7 +6,7 @@
 #include <map>
 
 #include "cocos/CocosEffects.h"
-#include "cocos/EffectReflection.h"
+#include "cocos/reflection/EffectReflection.h"
 #include "core/Files.h"
 #include "core/Log.h"
 #include "effect/EffectLibrary.h"

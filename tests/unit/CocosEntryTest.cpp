@@ -1,5 +1,5 @@
 // "program:entry": the function must be there and return what the stage results in; what cannot be known is let pass.
-#include "cocos/EntryCheck.h"
+#include "cocos/analysis/EntryCheck.h"
 
 #include <gtest/gtest.h>
 

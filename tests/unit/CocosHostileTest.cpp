@@ -7,10 +7,10 @@
 
 #include "CocosFrontTools.h"
 #include "SceneTestTools.h"
-#include "cocos/MetaIndex.h"
-#include "cocos/Mtl.h"
-#include "cocos/Rpp.h"
-#include "cocos/SceneImport.h"
+#include "cocos/assets/Mtl.h"
+#include "cocos/assets/Rpp.h"
+#include "cocos/files/MetaIndex.h"
+#include "cocos/scene/SceneImport.h"
 
 namespace crevice::cocos {
 namespace {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "SceneTestTools.h"
-#include "cocos/Import.h"
+#include "cocos/import/Import.h"
 #include "core/Files.h"
 #include "plan/PipelineAsset.h"
 

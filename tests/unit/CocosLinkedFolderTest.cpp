@@ -3,8 +3,8 @@
 
 #include "EffectTestTools.h"
 #include "cocos/CocosEffects.h"
-#include "cocos/FileIndex.h"
-#include "cocos/Fingerprint.h"
+#include "cocos/files/FileIndex.h"
+#include "cocos/files/Fingerprint.h"
 
 namespace crevice::cocos {
 namespace {

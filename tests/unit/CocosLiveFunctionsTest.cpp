@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "CocosFrontTools.h"
-#include "cocos/LiveFunctions.h"
+#include "cocos/analysis/LiveFunctions.h"
 
 namespace crevice::cocos {
 namespace {

@@ -13,7 +13,7 @@
 
 #include "CocosMacroPrograms.h"
 #include "EffectTestTools.h"
-#include "cocos/Flattener.h"
+#include "cocos/flatten/Flattener.h"
 
 namespace crevice::cocos {
 namespace {

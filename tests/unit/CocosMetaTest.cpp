@@ -3,9 +3,9 @@
 #include <gtest/gtest.h>
 
 #include "SceneTestTools.h"
-#include "cocos/MetaFiles.h"
-#include "cocos/MetaIndex.h"
-#include "cocos/Uuid.h"
+#include "cocos/files/MetaFiles.h"
+#include "cocos/files/MetaIndex.h"
+#include "cocos/files/Uuid.h"
 
 namespace crevice::cocos {
 namespace {

@@ -2,8 +2,8 @@
 #include <gtest/gtest.h>
 
 #include "SceneTestTools.h"
-#include "cocos/Mtl.h"
-#include "cocos/MtlInstance.h"
+#include "cocos/assets/Mtl.h"
+#include "cocos/assets/MtlInstance.h"
 
 namespace crevice::cocos {
 namespace {

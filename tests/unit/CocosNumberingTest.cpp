@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "CocosTestTools.h"
-#include "cocos/Numbering.h"
+#include "cocos/interface/Numbering.h"
 
 namespace crevice::cocos {
 namespace {

@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "CocosFrontTools.h"
-#include "cocos/Conditions.h"
-#include "cocos/SourceText.h"
+#include "cocos/text/Conditions.h"
+#include "cocos/text/SourceText.h"
 
 namespace crevice::cocos {
 namespace {

@@ -2,8 +2,8 @@
 #include <fmt/format.h>
 #include "CocosSceneFixture.h"
 
-#include "cocos/NamedUuid.h"
-#include "cocos/Uuid.h"
+#include "cocos/files/NamedUuid.h"
+#include "cocos/files/Uuid.h"
 #include "core/Image.h"
 
 namespace crevice::cocos {

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "CocosTestTools.h"
-#include "cocos/Reflection.h"
+#include "cocos/reflection/Reflection.h"
 
 namespace crevice::cocos {
 namespace {

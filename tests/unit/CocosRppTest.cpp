@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "SceneTestTools.h"
-#include "cocos/Rpp.h"
+#include "cocos/assets/Rpp.h"
 
 namespace crevice::cocos {
 namespace {

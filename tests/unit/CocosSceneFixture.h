@@ -1,13 +1,13 @@
 // A project of a test's own with one effect, one material and one model, and scenes that use them.
 #pragma once
 
-#include "cocos/SceneImport.h"
+#include "cocos/scene/SceneImport.h"
 
 #include <gtest/gtest.h>
 
 #include "SceneTestTools.h"
-#include "cocos/SceneComponents.h"
-#include "cocos/Shapes.h"
+#include "cocos/scene/SceneComponents.h"
+#include "cocos/scene/Shapes.h"
 #include "core/Files.h"
 
 namespace crevice::cocos {

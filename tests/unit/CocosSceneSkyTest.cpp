@@ -2,7 +2,7 @@
 #include <array>
 
 #include "CocosSceneFixture.h"
-#include "cocos/SceneSky.h"
+#include "cocos/scene/SceneSky.h"
 #include "core/Image.h"
 
 namespace crevice::cocos {

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "CocosFrontTools.h"
-#include "cocos/EffectReflection.h"
+#include "cocos/reflection/EffectReflection.h"
 
 namespace crevice::cocos {
 namespace {

@@ -1,11 +1,11 @@
 // What scenes with a Cocos project are made of: built-in shapes, tangents, materials of glTF in the words of
 // builtin-standard.
-#include "cocos/Shapes.h"
+#include "cocos/scene/Shapes.h"
 
 #include <gtest/gtest.h>
 
-#include "cocos/StandardMaterial.h"
-#include "cocos/Tangents.h"
+#include "cocos/assets/StandardMaterial.h"
+#include "cocos/scene/Tangents.h"
 
 namespace crevice::cocos {
 namespace {

@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include "CocosSceneFixture.h"
-#include "cocos/SkyFaces.h"
+#include "cocos/scene/SkyFaces.h"
 #include "core/Image.h"
 
 namespace crevice::cocos {

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "CocosFrontTools.h"
-#include "cocos/Splices.h"
+#include "cocos/text/Splices.h"
 
 namespace crevice::cocos {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "cocos/StageText.h"
+#include "cocos/text/StageText.h"
 
 namespace crevice::cocos {
 

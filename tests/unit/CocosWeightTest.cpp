@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "CocosFrontTools.h"
-#include "cocos/MacroWeight.h"
+#include "cocos/analysis/MacroWeight.h"
 
 namespace crevice::cocos {
 namespace {

@@ -31,6 +31,20 @@ const std::map<std::string, std::set<std::string>> kMayInclude = {
     {"app", {"core", "effect", "scene", "plan", "cocos", "truth", "gfx", "flow", "stages"}},
 };
 
+/// The same for the rooms of pipeline/cocos; "" is its front door, which Crevice's effect library calls.
+const std::map<std::string, std::set<std::string>> kCocosRooms = {
+    {"files", {}},
+    {"text", {"files"}},
+    {"interface", {"files", "text"}},
+    {"flatten", {"files", "text"}},
+    {"analysis", {"files", "text", "flatten"}},
+    {"", {"files", "text", "interface", "flatten", "analysis"}},
+    {"reflection", {"", "files", "text", "interface", "flatten", "analysis"}},
+    {"assets", {"files"}},
+    {"import", {"files", "assets"}},
+    {"scene", {"files", "assets"}},
+};
+
 struct SourceFile {
     std::string name;   // relative to the repository
     std::string layer;  // "core", …, "stages"; empty for tests
@@ -91,6 +105,24 @@ TEST(Layering, IncludesPointOneWay) {
                 << file.name << ":" << i + 1 << ": '" << file.layer << "' may not include '" << layer << "'";
         }
     }
+}
+
+TEST(Layering, TheRoomsOfCocosPointOneWay) {
+    const std::regex include(R"re(^\s*#\s*include\s*"cocos/(?:([a-z]+)/)?.*)re");
+    const fs::path top = kRoot / "pipeline/cocos";
+    std::size_t seen = 0;
+    for (const SourceFile& file : readSources("pipeline/cocos")) {
+        const fs::path below = (kRoot / file.name).lexically_relative(top);
+        const std::string room = below.has_parent_path() ? below.begin()->string() : "";
+        ASSERT_TRUE(kCocosRooms.contains(room)) << file.name << " lies in an unknown room";
+        std::smatch match;
+        for (const std::string& line : file.lines) {
+            if (!std::regex_match(line, match, include) || match[1] == room) continue;
+            EXPECT_TRUE(kCocosRooms.at(room).contains(match[1])) << file.name << ": " << line;
+            ++seen;
+        }
+    }
+    EXPECT_GT(seen, 50u);
 }
 
 TEST(Layering, NoIncludeClimbsOutOfItsFolder) {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "cocos/Import.h"
+#include "cocos/import/Import.h"
 #include "core/Log.h"
 #include "effect/EffectLibrary.h"
 #include "flow/StageRegistry.h"

@@ -8,8 +8,8 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
-#include "cocos/FolderWalk.h"
-#include "cocos/Project.h"
+#include "cocos/assets/Project.h"
+#include "cocos/files/FolderWalk.h"
 #include "core/Error.h"
 #include "core/Files.h"
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "cocos/Roots.h"
+#include "cocos/files/Roots.h"
 
 namespace CLI {
 class App;

@@ -13,7 +13,7 @@
 #include "app/commands/EffectPaths.h"
 #include "app/commands/EffectReport.h"
 #include "app/commands/EffectVariants.h"
-#include "cocos/EffectReflection.h"
+#include "cocos/reflection/EffectReflection.h"
 #include "core/Text.h"
 
 namespace crevice {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "cocos/StageText.h"
+#include "cocos/text/StageText.h"
 #include "core/Error.h"
 
 namespace crevice {

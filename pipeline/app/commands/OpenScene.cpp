@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include "cocos/SceneImport.h"
+#include "cocos/scene/SceneImport.h"
 
 namespace crevice {
 namespace {
