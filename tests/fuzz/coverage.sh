@@ -12,8 +12,8 @@ declare -A files=(
   [scene]="scene/Scene(Asset|Fields|FileLookup)"
   [gltf]="scene/Gltf.*"
   [image]="core/(Hdr|Exr|Picture)"
-  [cocosEffect]="cocos/(ChunkLibrary|CocosEffects|Conditions|EffectReflection|EngineMacros|Flattener|GlslStatements|GlslTypes|Interface.*|Macro.*|Numbering|PassReflection|Pragmas|PropertyReflection|Reflection|SourceText|Stage.*|TextConstants)"
-  [cocosAsset]="cocos/(Mtl.*|Meta.*|ObjectGraph|Rpp.*|Import.*|Scene.*|TypedValue|Uuid|Version|Project|Shapes|StandardMaterial|TextureSampler|PrefabOverrides)")
+  [cocosEffect]="cocos/((text|flatten|analysis|interface|reflection)/.*|CocosEffects|StageHead)"
+  [cocosAsset]="cocos/((assets|import|scene)/.*|files/(Meta.*|NamedUuid|Uuid))")
 work=$(mktemp -d); trap 'rm -rf "$work"' EXIT
 for target in ${TARGETS:-pipeline effect material scene gltf image cocosEffect cocosAsset}; do
   program=$build/crevice_fuzz_$target
