@@ -240,7 +240,7 @@ EffectLibrary::EffectLibrary(AssetRoots roots, const Log& log, Options options)
     : state_(new State{std::move(roots),
                        log,
                        SpirvCache(options.useDiskCache ? cacheFolder("spirv") : std::nullopt),
-                       options.compiler ? options.compiler : std::make_shared<ShaderCompiler>(),
+                       options.compiler ? std::move(options.compiler) : std::make_shared<ShaderCompiler>(),
                        {},
                        {},
                        {},
