@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <optional>
+#include <ostream>
 #include <utility>
 
 #include "app/Renderer.h"
@@ -68,6 +69,9 @@ struct Sweep {
     fs::path model;
     std::optional<std::size_t> share;  ///< Every kShares-th variant from this one on; all without it.
 };
+
+/// For the names of tests.
+void PrintTo(const Sweep& sweep, std::ostream* out) { *out << sweep.model.filename(); }
 
 std::vector<Sweep> oneOfAFolder() {
     std::vector<Sweep> chosen;
