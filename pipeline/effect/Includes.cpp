@@ -19,6 +19,13 @@ std::string_view trim(std::string_view text) {
     return text.substr(first, text.find_last_not_of(" \t") - first + 1);
 }
 
+/// Without the blanks behind a backslash at the end, those of Windows' line ends too: the line goes on all the same, as
+/// in C.
+std::string_view continued(std::string_view line) {
+    const std::size_t last = line.find_last_not_of(" \t\v\f");
+    return last != std::string_view::npos && line[last] == '\\' ? line.substr(0, last + 1) : line;
+}
+
 /// Splits "#  word rest"; empty word when the line is no directive.
 struct Directive {
     std::string_view word, rest;
@@ -122,7 +129,7 @@ private:
         int line = chunk.firstLine;
         for (std::size_t at = 0; at < text.size() && !stopped_; ++line) {
             const std::size_t end = std::min(text.find('\n', at), text.size());
-            emitLine(std::string_view(text).substr(at, end - at), {file, line}, chunk);
+            emitLine(continued(std::string_view(text).substr(at, end - at)), {file, line}, chunk);
             at = end + 1;
         }
         stack_.pop_back();

@@ -2,13 +2,13 @@
 """Writes a Cocos project of an engine's size for crevice_effect_bench: 62 chunks in layers that include each other, and
 effects of 6 to 10 passes whose stages have 1600 lines on average when they are put together.
 
-    python3 tests/bench/make_cocos_project.py FOLDER [EFFECTS]      (EFFECTS: 100 when left out)
+    python3 tests/bench/make_cocos_project.py FOLDER
     crevice_effect_bench FOLDER
     crevice effects compile --engine FOLDER
 """
+import argparse
 import os
 import random
-import sys
 
 MACROS = """USE_NORMAL_DETAIL USE_BASE_TEXTURE USE_MASK USE_TINT USE_SECOND_LAYER USE_RIM USE_WRAP_LIGHT HAS_SECOND_UV
     USE_VERTEX_TINT USE_SKIN USE_MORPHING USE_COPIES CC_USE_FOG CC_USE_HDR CC_USE_IBL CC_RECEIVE_SHADOW
@@ -213,6 +213,8 @@ def main(folder, count):
 
 
 if __name__ == "__main__":
-    if len(sys.argv) < 2:
-        sys.exit(__doc__)
-    main(sys.argv[1], int(sys.argv[2]) if len(sys.argv) > 2 else 100)
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("folder", metavar="FOLDER")
+    parser.add_argument("effects", metavar="EFFECTS", nargs="?", type=int, default=100, help="how many (100)")
+    options = parser.parse_args()
+    main(options.folder, options.effects)

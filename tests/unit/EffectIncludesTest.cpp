@@ -111,6 +111,11 @@ TEST_F(EffectIncludes, CommentsHideIncludesAndKeepColumns) {
     EXPECT_EQ(flat.text.substr(flat.text.find('x')).find('z'), 10u);
 }
 
+TEST_F(EffectIncludes, BlanksBehindABackslashAndWindowsLineEndsContinueALine) {
+    program("main", "#define A(x) \\\r\n x\r\n#define B \\ \t\n 2\n");
+    EXPECT_EQ(flatten().text.substr(0, 34), "#define A(x) \\\n x \n#define B \\\n 2\n");
+}
+
 TEST_F(EffectIncludes, MissingChunkListsPlacesAndNearNames) {
     program("main", "a\n  #include <cc-camra>\n");
     chunk("cc-camera", "");
