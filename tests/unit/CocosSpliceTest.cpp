@@ -15,12 +15,6 @@ using testing::Not;
 
 const std::string kColor = "layout(location = 0) out vec4 color;\n";
 
-std::vector<std::string> names(const StageText& stage) {
-    std::vector<std::string> found;
-    for (const auto& macro : stage.macros) found.push_back(macro.info.name);
-    return found;
-}
-
 TEST(CocosSplice, MovesWhatIsPartedUp) {
     EXPECT_EQ(joinParted("a SPLI\\\nCED b"), "a SPLICED\\\n b");
     EXPECT_EQ(joinParted("x1\\\n2\\\n3;y"), "x123\\\n\\\n;y");
@@ -40,7 +34,7 @@ TEST(CocosSplice, NamesInConditions) {
     bench.fragment(kColor + "#if SPLI\\\nCED &\\\n& USE_B\n#define ONE 1.0\n#else\n#define ONE 2.0\n#endif\n" +
                    "void main() { color = vec4(ONE); }\n");
     const StageText stage = bench.fragmentText();
-    EXPECT_THAT(names(stage), ElementsAre("SPLICED", "USE_B"));
+    EXPECT_THAT(macroNames(stage), ElementsAre("SPLICED", "USE_B"));
     EXPECT_THAT(words(stage.flat.text), Contains("#if SPLICED  &&  USE_B"));
     bench.compile();
     bench.compile({{"SPLICED", "1"}, {"USE_B", "1"}});
